@@ -47,6 +47,19 @@ Result<RenderSettings> readSettings(const SettingsOptions& o, RenderSettings s) 
   return s;
 }
 
+std::optional<double> parseBytes(const std::string& text) {
+  const size_t unit = text.find_first_not_of("0123456789.");
+  const std::optional<double> value = parseNumber<double>(std::string_view(text).substr(0, unit));
+  const size_t name = text.find_first_not_of(' ', unit == std::string::npos ? text.size() : unit);
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"MB", 1e6}, {"MiB", 1 << 20}, {"GB", 1e9}, {"GiB", 1 << 30}};
+  for (const auto& [word, bytes] : kUnits) {
+    if (value && *value > 0 && name != std::string::npos && std::string_view(text).substr(name) == word)
+      return *value * bytes;
+  }
+  return std::nullopt;
+}
+
 std::string lowerExtension(const std::filesystem::path& file) {
   std::string e = file.extension().string();
   std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -44,6 +44,9 @@ struct SettingsOptions {
 // `settings`: what holds where neither options nor the file say otherwise. Values in range are left to checkSettings().
 Result<RenderSettings> readSettings(const SettingsOptions& o, RenderSettings settings);
 
+// "2GB", "1.5 GiB", "800MB"; none: not a size.
+std::optional<double> parseBytes(const std::string& text);
+
 std::string lowerExtension(const std::filesystem::path& file);
 
 // Files that are written must differ from each other and from those that are read; empty names are none.

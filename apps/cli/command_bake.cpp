@@ -17,13 +17,14 @@
 #include "home/light.h"
 #include "json/json_file.h"
 #include "output_files.h"
+#include "scene/find_named.h"
 #include "started_programs.h"
 
 namespace roomlight::cli {
 namespace {
 
 struct BakeOptions : SceneOptions {
-  std::string output, quality = "good", hours, stats;
+  std::string output, quality = "good", hours, rooms, budget, stats;
   std::optional<int> threads;
   bool quiet = false;
 };
@@ -32,6 +33,8 @@ struct BakePlan {
   bake::BakeSettings settings;
   home::OpenWish open;
   std::vector<float> hours;
+  std::vector<std::string> rooms;  // as typed; none: all
+  double budgetBytes = 0;          // 0: none
   std::string page;   // the built page; empty for a .glb
   HeldFolder folder;  // that is written into
 };
@@ -72,6 +75,13 @@ Result<BakePlan> planBake(const BakeOptions& o) {
     if (!hours) return Error{hours.error()};
     plan.hours = std::move(hours.value());
   }
+  plan.rooms = CLI::detail::split(o.rooms, ',');
+  if (o.rooms.empty()) plan.rooms.clear();
+  for (std::string& name : plan.rooms) CLI::detail::trim(name);
+  if (!o.budget.empty()) {
+    plan.budgetBytes = parseBytes(o.budget).value_or(0);
+    if (!(plan.budgetBytes > 0)) return Error{fmt::format("--budget {}: write a size such as 20MB", o.budget)};
+  }
   if (!o.stats.empty()) {
     if (const Status s = checkWritable(o.stats); !s) return Error{s.error()};
   }
@@ -86,10 +96,30 @@ Result<BakePlan> planBake(const BakeOptions& o) {
   if (const Status s = checkDistinct({o.scene, o.lighting, o.output, o.stats, o.writeLighting}); !s)
     return Error{s.error()};
   if (lowerExtension(o.output) == ".glb") return plan;
+  plan.settings.glb.compressed = true;
   Result<std::string> page = readTextFile(pageFolder("baked", "dist-baked") / "index.html");
   if (!page) return Error{page.error() + "; build the page with scripts/build"};
   plan.page = std::move(page.value());
   return plan;
+}
+
+// Where the light found so far is kept until all of it is written.
+std::filesystem::path keptIn(const BakeOptions& o) {
+  std::string name = o.output;
+  while (name.size() > 1 && name.back() == '/') name.pop_back();
+  return name + ".light";
+}
+
+Result<std::vector<size_t>> roomsOf(const BakePlan& plan, const Scene& scene) {
+  std::vector<size_t> out;
+  for (const std::string& name : plan.rooms) {
+    const Result<size_t> room = findRoom(scene.rooms, name);
+    if (!room) return Error{"--rooms: " + room.error()};
+    out.push_back(room.value());
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 // The daylight of the home by place and time: its lighting file's, that which was added, its own, else one assumed.
@@ -162,6 +192,38 @@ std::string statsJson(const Scene& scene, const bake::BakedHome& b, const Render
   return json.dump(2) + "\n";
 }
 
+std::string interruptedLine(const BakeOptions& o, const bake::KeptLight& kept) {
+  return kept.any() ? fmt::format(
+                          "interrupted before all light was found; what was found is kept in {}: the same "
+                          "command goes on from there",
+                          keptIn(o).string())
+                    : "interrupted before all light was found; nothing was written";
+}
+
+// Of all that was written for the home.
+size_t writtenBytes(const BakeOptions& o, const bake::BakedHome& b) {
+  std::error_code code;
+  if (!isFolder(o)) return std::filesystem::file_size(o.output, code);
+  return b.glb.bytes.size() + std::filesystem::file_size(std::filesystem::path(o.output) / "index.html", code);
+}
+
+// What it took to keep to the budget, or that it was not kept.
+void tellBudget(const BakePlan& plan, const bake::BakedHome& b, double bytes, ProgressDisplay& display) {
+  if (plan.budgetBytes <= 0) return;
+  const bake::BakeSettings &was = plan.settings, &is = b.settings;
+  std::string coarser;
+  if (is.charts.texelM > was.charts.texelM)
+    coarser += fmt::format(", texels of light of {:.0f} cm", static_cast<double>(100 * is.charts.texelM));
+  if (is.glb.mostTexturePixels < was.glb.mostTexturePixels)
+    coarser += fmt::format(", textures of {} pixels", is.glb.mostTexturePixels);
+  if (is.simplifyM > was.simplifyM)
+    coarser += fmt::format(", surfaces up to {:.0f} mm off", static_cast<double>(1000 * is.simplifyM));
+  if (!coarser.empty()) display.line("for the budget: " + coarser.substr(2));
+  if (bytes > plan.budgetBytes)
+    display.line(fmt::format("above the budget of {:.1f} MB: it cannot get smaller; leave out rooms or hours",
+                             plan.budgetBytes / 1e6));
+}
+
 int workBake(const BakeOptions& o, const BakePlan& plan) {
   ProgressDisplay display(o.quiet);
   const RenderProgress progress{
@@ -175,17 +237,29 @@ int workBake(const BakeOptions& o, const BakePlan& plan) {
   const Scene& scene = home.value().scene;
   Result<std::vector<bake::DaylightHour>> hours = hoursOf(o, plan, home.value());
   if (!hours) return failed(hours.error());
-  const bake::BakeWish wish{home.value().offLamps, std::move(hours.value())};
-  const Result<bake::BakedHome> baked = bake::bakeHome(scene, wish, plan.settings, stages);
+  Result<std::vector<size_t>> rooms = roomsOf(plan, scene);
+  if (!rooms) return failed(rooms.error());
+  bake::BakeWish wish{home.value().offLamps, std::move(hours.value()), std::move(rooms.value()), 0, isPage(o)};
+  // A page is a part of what it is written into.
+  if (plan.budgetBytes > 0) {
+    const double left = plan.budgetBytes - static_cast<double>(plan.page.size());
+    wish.budgetBytes = static_cast<size_t>(std::max(1.0, left));
+  }
+  bake::BakeSettings settings = plan.settings;
+  settings.layers.kept = bake::KeptLight(keptIn(o));
+  const Result<bake::BakedHome> baked = bake::bakeHome(scene, wish, settings, stages);
   if (!baked) return failed(baked.error());
-  if (interrupted()) return failed("interrupted before all light was found; nothing was written", kInterrupted);
+  if (interrupted()) return failed(interruptedLine(o, settings.layers.kept), kInterrupted);
   const bake::BakedHome& b = baked.value();
   if (const Status s = writeBaked(o, plan, b.glb.bytes); !s) return failed(s.error(), kFailed);
   if (!o.stats.empty()) {
     if (const Status s = writeWhole(o.stats, statsJson(scene, b, stats)); !s) return failed(s.error(), kFailed);
   }
-  display.line(fmt::format("wrote {}: {:.1f} MB, {} layers of light on {} places", o.output,
-                           static_cast<double>(b.glb.bytes.size()) / 1e6, b.layers, b.places));
+  settings.layers.kept.forget();
+  const double bytes = static_cast<double>(writtenBytes(o, b));
+  display.line(
+      fmt::format("wrote {}: {:.1f} MB, {} layers of light on {} places", o.output, bytes / 1e6, b.layers, b.places));
+  tellBudget(plan, b, bytes, display);
   return kOk;
 }
 
@@ -211,10 +285,16 @@ Registered addBake(CLI::App& program) {
   app->add_option("--quality", o->quality, listed("How much is done:", qualities()))->capture_default_str();
   app->add_option("--hours", o->hours,
                   "Daylight at these hours of the home's day, such as 8,12,16; without it at its own hour alone");
+  app->add_option("--rooms", o->rooms,
+                  "Names or numbers of the rooms to be walked in, such as Kitchen,Bath; without it all");
+  app->add_option("--budget", o->budget,
+                  "The size to keep to, such as 20MB: textures, texels of light and simplification are coarser for it");
   app->add_option("--stats", o->stats, "Write sizes, and time and memory of each stage, to this JSON file");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_flag("--quiet", o->quiet, "Only errors");
   app->footer(
+      "Ctrl-C ends the work (exit status 130); the light found so far is kept beside the output, and the same command "
+      "goes on from there.\n"
       "Examples:\n"
       "  roomlight bake flat.sh3d -o flat.html\n"
       "  roomlight bake flat.sh3d --lighting evening.json --quality draft -o public/flat");

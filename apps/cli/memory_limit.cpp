@@ -1,3 +1,4 @@
+#include "arguments.h"
 #include "commands.h"
 
 #include <fmt/format.h>
@@ -15,29 +16,8 @@ constexpr double kLeastBytes = 64 << 20;  // less than the program itself needs
 
 std::string gLimit;  // as it was given
 
-// "2GB", "1.5 GiB", "800MB"; below 0: not a size.
-double bytesOf(const std::string& text) {
-  size_t end = 0;
-  double value = -1;
-  try {
-    value = std::stod(text, &end);
-  } catch (const std::exception&) {
-    return -1;
-  }
-  const size_t unit = text.find_first_not_of(' ', end);
-  const std::string name = unit == std::string::npos ? "" : text.substr(unit);
-  const struct {
-    const char* name;
-    double bytes;
-  } units[] = {{"MB", 1e6}, {"MiB", 1 << 20}, {"GB", 1e9}, {"GiB", 1 << 30}};
-  for (const auto& u : units) {
-    if (name == u.name && std::isfinite(value) && value > 0) return value * u.bytes;
-  }
-  return -1;
-}
-
 std::string limited(const std::string& text) {
-  const double bytes = bytesOf(text);
+  const double bytes = parseBytes(text).value_or(-1);
   if (bytes < 0) return fmt::format("--memory {}: write a size such as 2GB or 800MB", text);
   if (bytes < kLeastBytes) return fmt::format("--memory {}: give at least 64MiB", text);
   rlimit limit{};

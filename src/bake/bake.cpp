@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "bake/budget.h"
 #include "bake/light_texels.h"
 #include "bake/lit_places.h"
 #include "bake/simplify.h"
+#include "home/cameras.h"
 #include "look/display.h"
 #include "report/page.h"
 
@@ -31,25 +33,76 @@ Scene withAllLamps(const Scene& home, const std::vector<Lamp>& offLamps) {
   return layersOf(scene, Lights(scene)) ? scene : home;
 }
 
+// As if the others were none; and the cameras in them, if there are any.
+void keepRooms(Scene& scene, const std::vector<size_t>& rooms) {
+  if (rooms.empty()) return;
+  std::vector<Room> kept;
+  for (const size_t r : rooms) kept.push_back(scene.rooms[r]);
+  scene.rooms = std::move(kept);
+  std::vector<Camera> inside;
+  int inUse = 0;
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (roomAt(scene, scene.cameras[i].worldFromCamera.w) < 0) continue;
+    if (static_cast<int>(i) == scene.cameraInUse) inUse = static_cast<int>(inside.size());
+    inside.push_back(scene.cameras[i]);
+  }
+  if (inside.empty()) inside = home::proposeCameras(RayScene(scene), scene.rooms, false);
+  scene.cameras = std::move(inside), scene.cameraInUse = inUse;
+}
+
 struct LaidOut {
+  Scene scene;  // simplified
   Atlas atlas;
   LitPlaces lit;
 };
 
-Result<LaidOut> layOut(const Scene& scene, const BakeSettings& settings, Stages& stages) {
+Result<LaidOut> layOut(Scene scene, const BakeSettings& settings, Stages& stages) {
+  stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM), 0; });
   const RayScene rays(scene);
   const SeenSides seen = stages.run("seen", [&](const Progress&) {
     const std::vector<Vec3> eyes = eyesIn(rays);
     return seenFrom(rays, eyes, std::max(settings.seenRays, eyes.size() * settings.raysAnEye));
   });
   return stages.run("charts", [&](const Progress&) -> Result<LaidOut> {
-    LaidOut out;
     Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
     if (!atlas) return Error{atlas.error()};
-    out.atlas = std::move(atlas.value());
-    out.lit = litPlacesOf(out.atlas, rays, seen, settings.placesApartM);
-    return out;
+    LitPlaces lit = litPlacesOf(atlas.value(), rays, seen, settings.placesApartM);
+    return LaidOut{scene, std::move(atlas.value()), std::move(lit)};
   });
+}
+
+constexpr double kBytesATexel = 4;         // of light, before it is compressed
+constexpr double kBytesOfText = 4.0 / 3;  // a byte: base64
+
+size_t writtenSize(const BakeWish& wish, const std::string& glb) {
+  return wish.asText ? static_cast<size_t>(kBytesOfText * static_cast<double>(deflated(glb).size())) : glb.size();
+}
+
+// Of the file as it will be written, as far as that is known before there is light.
+Result<FileParts> partsOf(const LaidOut& laid, const BakeWish& wish, const BakeSettings& settings) {
+  const Result<Glb> dark =
+      glbOf(laid.scene, laid.atlas, {{}, std::vector<int32_t>(laid.scene.instances.size(), -1)}, {}, {}, settings.glb);
+  if (!dark) return Error{dark.error()};
+  const Result<LightLayers> lamps = layersOf(laid.scene, Lights(laid.scene));
+  const size_t layers = (lamps ? lamps.value().size() : laid.scene.rooms.size()) + 2 * wish.hours.size();
+  // Textures and light are compressed already, and grow as all does that becomes text.
+  const double grows = wish.asText ? kBytesOfText : 1;
+  const double size = static_cast<double>(writtenSize(wish, dark.value().bytes)),
+               textures = grows * static_cast<double>(dark.value().textureBytes);
+  return FileParts{size - textures, textures,
+                   grows * kBytesATexel * static_cast<double>(layers * laid.atlas.elements.size())};
+}
+
+// With settings coarse enough for the budget.
+Result<LaidOut> layOutWithin(const Scene& scene, const BakeWish& wish, BakeSettings& settings, Stages& stages) {
+  Result<LaidOut> laid = layOut(scene, settings, stages);
+  if (!laid || wish.budgetBytes == 0 || stages.cancelled()) return laid;
+  const Result<FileParts> parts = partsOf(laid.value(), wish, settings);
+  if (!parts) return Error{parts.error()};
+  const float texelM = settings.charts.texelM, simplifyM = settings.simplifyM;
+  settings = withinBudget(settings, parts.value(), wish.budgetBytes);
+  return texelM == settings.charts.texelM && simplifyM == settings.simplifyM ? std::move(laid)
+                                                                             : layOut(scene, settings, stages);
 }
 
 // From places to the atlas, with less noise.
@@ -103,13 +156,15 @@ Result<BakeSettings> bakeSettings(const std::string& quality) {
   return s;
 }
 
-Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSettings& settings, Stages& stages) {
-  Scene scene = withAllLamps(home, wish.offLamps);
-  stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM), 0; });
-  const Result<LaidOut> laidOut = layOut(scene, settings, stages);
+Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSettings& wanted, Stages& stages) {
+  Scene whole = withAllLamps(home, wish.offLamps);
+  keepRooms(whole, wish.rooms);
+  BakeSettings settings = wanted;
+  const Result<LaidOut> laidOut = layOutWithin(whole, wish, settings, stages);
   if (!laidOut) return Error{laidOut.error()};
   if (stages.cancelled()) return BakedHome{};
   const LaidOut& laid = laidOut.value();
+  const Scene& scene = laid.scene;
   if (laid.lit.places.empty()) return Error{"nothing of the home can be seen from its rooms or cameras"};
   const std::vector<SurfaceElement>& places = laid.lit.places;
   Result<LampLayers> lamps = lampLayers(scene, places, settings.layers, stages);
@@ -125,14 +180,21 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
     if (stages.cancelled()) return BakedHome{};
     std::move(layers.value().begin(), layers.value().end(), std::back_inserter(daylight));
   }
-  const Result<ShownAs> shown = shownAs(home, stages);
+  const Result<ShownAs> shown = shownAs(whole, stages);
   if (!shown) return Error{shown.error()};
   return stages.run("pack", [&](const Progress&) -> Result<BakedHome> {
     spread(laid, lamps.value().layers), spread(laid, daylight);
-    Result<Glb> glb = glbOf(scene, laid.atlas, lamps.value(), daylight, shown.value(), settings.glb);
+    const auto pack = [&] { return glbOf(scene, laid.atlas, lamps.value(), daylight, shown.value(), settings.glb); };
+    Result<Glb> glb = pack();
+    // What was foreseen too small.
+    while (glb && wish.budgetBytes > 0 && writtenSize(wish, glb.value().bytes) > wish.budgetBytes &&
+           settings.glb.mostTexturePixels > kSmallestTexture) {
+      settings.glb.mostTexturePixels /= 2;
+      glb = pack();
+    }
     if (!glb) return Error{glb.error()};
     BakedHome out;
-    out.glb = std::move(glb.value()), out.shown = shown.value();
+    out.glb = std::move(glb.value()), out.shown = shown.value(), out.settings = settings;
     out.places = places.size(), out.layers = lamps.value().layers.size() + daylight.size();
     out.atlasWidth = laid.atlas.width, out.atlasHeight = laid.atlas.height;
     for (const PlacedChart& chart : laid.atlas.charts) out.triangles += chart.indices.size() / 3;

@@ -28,6 +28,9 @@ Result<BakeSettings> bakeSettings(const std::string& quality);
 struct BakeWish {
   std::vector<Lamp> offLamps;       // baked as well, off at first
   std::vector<DaylightHour> hours;  // none: no daylight
+  std::vector<size_t> rooms;        // that are walked in, numbers; none: all
+  size_t budgetBytes = 0;           // for the file, 0: as large as it gets
+  bool asText = false;              // it will be written compressed, as text in a page
 };
 
 struct BakedHome {
@@ -35,10 +38,11 @@ struct BakedHome {
   size_t triangles = 0, places = 0, layers = 0;
   int atlasWidth = 0, atlasHeight = 0;
   ShownAs shown;
+  BakeSettings settings;  // as they were for the budget
 };
 
-// Stages "seen", "charts", those of lighting, "lamps", "sun", "sky", "pack". Errors: nothing can be seen; what glbOf()
-// and lighting say.
+// Stages "simplify", "seen", "charts", those of lighting, "lamps", "sun", "sky", "pack". Errors: nothing can be seen;
+// what glbOf() and lighting say.
 Result<BakedHome> bakeHome(const Scene& scene, const BakeWish& wish, const BakeSettings& settings, Stages& stages);
 
 // `page`: the built page with its mark for the home; `title`: the home's name. The whole page with the home inside, or

@@ -1,5 +1,7 @@
 #include "bake/glb.h"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +14,14 @@
 
 namespace roomlight::bake {
 namespace {
+
+// Places of a home as whole numbers of steps from its lowest corner; no steps where those would be too long.
+struct Grid {
+  Vec3 origin;
+  float stepM = 0;
+};
+constexpr float kLongestStepM = 0.0005f;  // things 1 mm apart stay apart
+constexpr float kSteps = 65535;
 
 // Triangles that are drawn at once.
 struct Batch {
@@ -86,10 +96,47 @@ class BatchMaker {
   const Atlas& atlas_;
 };
 
-Json primitiveOf(GlbWriter& glb, const Batch& b, bool textured, int material) {
+// Triangles in an order that is quick to draw and small once compressed, vertices as they are used.
+void reorder(Batch& b) {
+  const size_t count = b.positions.size();
+  meshopt_optimizeVertexCache(b.indices.data(), b.indices.data(), b.indices.size(), count);
+  std::vector<uint32_t> place(count);
+  const size_t used = meshopt_optimizeVertexFetchRemap(place.data(), b.indices.data(), b.indices.size(), count);
+  meshopt_remapIndexBuffer(b.indices.data(), b.indices.data(), b.indices.size(), place.data());
+  const auto move = [&](auto& values) {
+    meshopt_remapVertexBuffer(values.data(), values.data(), count, sizeof(values[0]), place.data());
+    values.resize(used);
+  };
+  move(b.positions), move(b.normals), move(b.uv), move(b.atlas), move(b.colors), move(b.vertexLit);
+}
+
+int addPositions(GlbWriter& glb, const std::vector<Vec3>& positions, const Grid& grid) {
+  Bounds3 bounds;
+  if (grid.stepM <= 0) {
+    for (const Vec3 p : positions) bounds.add(p);
+    const int accessor =
+        glb.addAccessor(bytesOf(positions), Component::Float, "VEC3", positions.size(), sizeof(Vec3), false);
+    glb.setBounds(accessor, bounds);
+    return accessor;
+  }
+  std::vector<std::array<uint16_t, 4>> steps;
+  for (const Vec3 p : positions) {
+    const Vec3 at = (p - grid.origin) / grid.stepM;
+    const auto round = [](float f) { return static_cast<uint16_t>(std::lround(std::clamp(f, 0.0f, kSteps))); };
+    steps.push_back({round(at.x), round(at.y), round(at.z), 0});
+    bounds.add({static_cast<float>(steps.back()[0]), static_cast<float>(steps.back()[1]),
+                static_cast<float>(steps.back()[2])});
+  }
+  const int accessor = glb.addAccessor(bytesOf(steps), Component::UnsignedShort, "VEC3", steps.size(), 8, false);
+  glb.setBounds(accessor, bounds);
+  return accessor;
+}
+
+Json primitiveOf(GlbWriter& glb, Batch& b, const Grid& grid, bool textured, int material) {
+  reorder(b);
   const size_t n = b.positions.size();
   Json attributes;
-  attributes["POSITION"] = glb.addPositions(b.positions);
+  attributes["POSITION"] = addPositions(glb, b.positions, grid);
   attributes["NORMAL"] = glb.addAccessor(bytesOf(b.normals), Component::Byte, "VEC3", n, 4, true);
   if (textured) attributes["TEXCOORD_0"] = glb.addAccessor(bytesOf(b.uv), Component::Float, "VEC2", n, 8, false);
   attributes["TEXCOORD_1"] = glb.addAccessor(bytesOf(b.atlas), Component::UnsignedShort, "VEC2", n, 4, true);
@@ -100,11 +147,24 @@ Json primitiveOf(GlbWriter& glb, const Batch& b, bool textured, int material) {
   return {{"attributes", attributes}, {"indices", indices}, {"material", material}};
 }
 
-Status addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
-                   const GlbSettings& settings) {
+using Batches = std::map<std::pair<int, int>, Batch>;  // by material and layer of what it emits
+
+Grid gridOf(const Batches& batches) {
+  Bounds3 bounds;
+  for (const auto& [key, batch] : batches) {
+    for (const Vec3 p : batch.positions) bounds.add(p);
+  }
+  if (batches.empty()) return {};
+  const float stepM = maxComponent(bounds.size()) / kSteps;
+  return {bounds.lo, stepM > kLongestStepM ? 0 : stepM};
+}
+
+// Bytes of its textures.
+Result<size_t> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
+                           const GlbSettings& settings) {
   const BatchMaker maker(scene, atlas);
   constexpr int kDark = -2;  // the side that does not shine
-  std::map<std::pair<int, int>, Batch> batches;  // by material and layer of what it emits
+  Batches batches;
   for (const PlacedChart& placed : atlas.charts) {
     const Instance& instance = scene.instances[placed.chart.instance];
     const int material = scene.meshes[static_cast<size_t>(instance.mesh)].material;
@@ -113,19 +173,26 @@ Status addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const
     const bool shines = front || scene.materials[static_cast<size_t>(material)].doubleSided;
     maker.add(placed, batches[{material, shines ? lamps.ofInstance[placed.chart.instance] : kDark}]);
   }
+  Grid grid;
+  if (settings.compressed) grid = gridOf(batches);
   GlbMaterials materials(scene, glb, settings);
   Json primitives = Json::array();
-  for (const auto& [key, batch] : batches) {
+  for (auto& [key, batch] : batches) {
     const Result<int> material = materials.add(key.first, key.second, key.second != kDark);
     if (!material) return Error{material.error()};
-    primitives.push_back(primitiveOf(glb, batch, materials.textured(key.first), material.value()));
+    primitives.push_back(primitiveOf(glb, batch, grid, materials.textured(key.first), material.value()));
   }
   materials.finish();
   glb.json["meshes"] = Json::array({{{"name", "home"}, {"primitives", primitives}}});
-  glb.json["nodes"] = Json::array({{{"name", "home"}, {"mesh", 0}}});
+  Json node = {{"name", "home"}, {"mesh", 0}};
+  if (grid.stepM > 0) {
+    node["translation"] = {grid.origin.x, grid.origin.y, grid.origin.z};
+    node["scale"] = {grid.stepM, grid.stepM, grid.stepM};
+  }
+  glb.json["nodes"] = Json::array({node});
   glb.json["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
   glb.json["scene"] = 0;
-  return Ok{};
+  return materials.textureBytes();
 }
 
 constexpr int kTile = 32;
@@ -190,10 +257,12 @@ Json camerasJson(const std::vector<Camera>& cameras) {
 
 Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
                   const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings) {
-  GlbWriter glb;
-  if (const Status s = addGeometry(glb, scene, atlas, lamps, settings); !s) return Error{s.error()};
+  GlbWriter glb(settings.compressed);
+  const Result<size_t> textureBytes = addGeometry(glb, scene, atlas, lamps, settings);
+  if (!textureBytes) return Error{textureBytes.error()};
   Json layers = Json::array();
   Glb out;
+  out.textureBytes = textureBytes.value();
   for (const auto* group : {&lamps.layers, &daylight}) {
     for (const BakedLayer& layer : *group)
       layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux), out.lightBytes));
@@ -211,6 +280,10 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
   if (!daylight.empty()) light["hour"] = daylight.front().hour;
   glb.json["extensions"]["ROOMLIGHT_light_layers"] = light;
   glb.json["extensionsUsed"].push_back("ROOMLIGHT_light_layers");
+  if (settings.compressed) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+      glb.json[list].push_back("EXT_meshopt_compression");
+  }
   out.bytes = glb.finished();
   return out;
 }

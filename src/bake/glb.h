@@ -13,6 +13,7 @@ namespace roomlight::bake {
 struct GlbSettings {
   int mostTexturePixels = 1024;  // an edge; larger textures are scaled down
   float textureQuality = 80;     // of WebP
+  bool compressed = false;       // geometry by EXT_meshopt_compression, which not every program reads
 };
 
 // What a picture of the home's own light from its camera is exposed and balanced by.
@@ -24,7 +25,7 @@ struct ShownAs {
 
 struct Glb {
   std::string bytes;      // the file
-  size_t lightBytes = 0;  // of it, all layers
+  size_t lightBytes = 0, textureBytes = 0;  // of it, all layers and all textures
 };
 
 // Layers have light on the elements of the atlas.

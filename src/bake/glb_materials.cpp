@@ -79,6 +79,7 @@ Result<int> GlbMaterials::texture(int number) {
   const auto samplerNumber = static_cast<int>(place - samplers_.begin());
   if (place == samplers_.end()) samplers_.push_back(sampler);
   const auto image = static_cast<int>(images_.size());
+  bytes_ += webp.value().size();
   images_.push_back({{"bufferView", glb_.addView(webp.value())}, {"mimeType", "image/webp"}});
   const auto out = static_cast<int>(textures_.size());
   textures_.push_back({{"sampler", samplerNumber}, {"extensions", {{"EXT_texture_webp", {{"source", image}}}}}});

@@ -24,6 +24,7 @@ class GlbMaterials {
   bool textured(int material) const;
   // Writes what was added into the file.
   void finish();
+  size_t textureBytes() const { return bytes_; }
 
  private:
   Result<int> texture(int texture);
@@ -34,6 +35,7 @@ class GlbMaterials {
   GlbWriter& glb_;
   const GlbSettings& settings_;
   Json materials_ = Json::array(), textures_ = Json::array(), images_ = Json::array(), samplers_ = Json::array();
+  size_t bytes_ = 0;  // of textures
   std::map<int, int> textureOf_;  // of the scene's
 };
 

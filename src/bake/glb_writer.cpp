@@ -1,7 +1,10 @@
 #include "bake/glb_writer.h"
 
+#include <meshoptimizer.h>
+
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace roomlight::bake {
 namespace {
@@ -14,7 +17,9 @@ void addWord(std::string& out, uint32_t word) {
 
 }  // namespace
 
-GlbWriter::GlbWriter() { json["asset"] = {{"version", "2.0"}, {"generator", "roomlight"}}; }
+GlbWriter::GlbWriter(bool compressed) : compressed_(compressed) {
+  json["asset"] = {{"version", "2.0"}, {"generator", "roomlight"}};
+}
 
 int GlbWriter::addView(std::string_view bytes) {
   binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
@@ -25,7 +30,9 @@ int GlbWriter::addView(std::string_view bytes) {
 
 int GlbWriter::addAccessor(std::string_view bytes, Component component, const char* type, size_t count, int stride,
                            bool normalized) {
-  const int view = addView(bytes);
+  const int view = compressed_ ? addCompressed(bytes, count,
+                                               stride > 0 ? static_cast<size_t>(stride) : sizeof(uint32_t), stride == 0)
+                               : addView(bytes);
   if (stride > 0) views_.back()["byteStride"] = stride;
   accessors_.push_back(
       {{"bufferView", view}, {"componentType", static_cast<int>(component)}, {"count", count}, {"type", type}});
@@ -33,19 +40,38 @@ int GlbWriter::addAccessor(std::string_view bytes, Component component, const ch
   return static_cast<int>(accessors_.size()) - 1;
 }
 
-int GlbWriter::addPositions(std::span<const Vec3> positions) {
-  Bounds3 bounds;
-  for (const Vec3 p : positions) bounds.add(p);
-  const int accessor = addAccessor({reinterpret_cast<const char*>(positions.data()), positions.size_bytes()},
-                                   Component::Float, "VEC3", positions.size(), sizeof(Vec3), false);
-  accessors_.back()["min"] = {bounds.lo.x, bounds.lo.y, bounds.lo.z};
-  accessors_.back()["max"] = {bounds.hi.x, bounds.hi.y, bounds.hi.z};
-  return accessor;
+// Readers see a buffer that is nowhere, as large as all that is compressed.
+int GlbWriter::addCompressed(std::string_view bytes, size_t count, size_t stride, bool triangles) {
+  std::vector<unsigned char> packed(triangles ? meshopt_encodeIndexBufferBound(count, count)
+                                              : meshopt_encodeVertexBufferBound(count, stride));
+  packed.resize(triangles ? meshopt_encodeIndexBuffer(packed.data(), packed.size(),
+                                                      reinterpret_cast<const unsigned int*>(bytes.data()), count)
+                          : meshopt_encodeVertexBuffer(packed.data(), packed.size(), bytes.data(), count, stride));
+  const int view = addView({reinterpret_cast<const char*>(packed.data()), packed.size()});
+  Json& json = views_.back();
+  json["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                   {"byteOffset", json["byteOffset"]},
+                                                   {"byteLength", packed.size()},
+                                                   {"byteStride", stride},
+                                                   {"mode", triangles ? "TRIANGLES" : "ATTRIBUTES"},
+                                                   {"count", count}};
+  json["buffer"] = 1, json["byteOffset"] = plainBytes_, json["byteLength"] = bytes.size();
+  plainBytes_ += bytes.size();
+  return view;
+}
+
+void GlbWriter::setBounds(int accessor, const Bounds3& bounds) {
+  Json& json = accessors_[static_cast<size_t>(accessor)];
+  json["min"] = {bounds.lo.x, bounds.lo.y, bounds.lo.z};
+  json["max"] = {bounds.hi.x, bounds.hi.y, bounds.hi.z};
 }
 
 std::string GlbWriter::finished() {
   binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
   json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+  if (plainBytes_ > 0)
+    json["buffers"].push_back(
+        {{"byteLength", plainBytes_}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
   json["bufferViews"] = views_, json["accessors"] = accessors_;
   std::string text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');

@@ -1,9 +1,14 @@
 #include "bake/layers.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
+#include "bake/light_blocks.h"
+#include "base/hash.h"
 #include "base/parallel.h"
+#include "scene/scene_hash.h"
 
 namespace roomlight::bake {
 namespace {
@@ -51,6 +56,58 @@ Result<std::unique_ptr<LitScene>> litInLayers(const Scene& scene, RenderSettings
   return lit(scene, settings, stages);
 }
 
+// What readings depend on beside their places.
+std::string inputsOf(const LitScene& light, const LayerSettings& settings) {
+  RenderSettings render = settings.render;
+  render.threads = 0;
+  const MeterSettings& m = settings.meters;
+  return hashOf(fmt::format("{} {} {} {} {} {} {}", version(), settingsToJson(render), m.tolerance, m.fewestSamples,
+                            m.mostSamples, m.seed, hashOfScene(light.rays().scene())));
+}
+
+void append(BakedLayer& layer, const float* n) {
+  layer.lux.push_back({n[0], n[1], n[2]});
+  layer.errorLux.push_back(n[3]);
+}
+
+// All layers at once, which have no light yet. False once stopped.
+bool readLamps(const LitScene& light, std::span<const SurfaceElement> places, const LayerSettings& settings,
+               const Progress& progress, std::vector<BakedLayer>& layers) {
+  const size_t count = layers.size();
+  const LightBlocks blocks{places, 4 * count, inputsOf(light, settings), settings.kept, settings.meters};
+  const auto measure = [&](std::span<const SurfaceElement> block, const MeterSettings& meters, const Progress& p) {
+    const LayeredReadings readings = light.illuminanceInLayers(block, meters, p);
+    std::vector<float> numbers;
+    numbers.reserve(4 * readings.lux.size());
+    for (size_t i = 0; i < readings.lux.size(); ++i) {
+      const Vec3 e = readings.lux[i];
+      numbers.insert(numbers.end(), {e.x, e.y, e.z, readings.standardErrorLux[i]});
+    }
+    return numbers;
+  };
+  const auto take = [&](size_t, std::span<const float> numbers) {
+    for (size_t i = 0; i < numbers.size() / 4; ++i) append(layers[i % count], &numbers[4 * i]);
+  };
+  return blocks.read(measure, take, progress);
+}
+
+bool readDaylight(const LitScene& light, std::span<const SurfaceElement> places, const LayerSettings& settings,
+                  const Progress& progress, BakedLayer& layer) {
+  const LightBlocks blocks{places, 4, inputsOf(light, settings), settings.kept, settings.meters};
+  const auto measure = [&](std::span<const SurfaceElement> block, const MeterSettings& meters, const Progress& p) {
+    std::vector<float> numbers;
+    for (const MeterReading& r : light.illuminance(block, meters, p)) {
+      const Vec3 e = r.illuminanceLux;
+      numbers.insert(numbers.end(), {e.x, e.y, e.z, static_cast<float>(r.standardErrorLux)});
+    }
+    return numbers;
+  };
+  const auto take = [&](size_t, std::span<const float> numbers) {
+    for (size_t i = 0; i < numbers.size() / 4; ++i) append(layer, &numbers[4 * i]);
+  };
+  return blocks.read(measure, take, progress);
+}
+
 constexpr int kSkyWidth = 256, kSkyHeight = 128;
 
 Image panoramaOf(const SkyDistribution& sky) {
@@ -78,21 +135,18 @@ Result<LampLayers> lampLayers(const Scene& home, const std::vector<SurfaceElemen
   if (!light.value()) return out;
   const LightLayers* layers = light.value()->layers();
   if (!layers) return Error{"the home has more lamps than can be told apart; group some in a lighting file"};
-  const LayeredReadings readings = stages.run(
-      "lamps", [&](const Progress& p) { return light.value()->illuminanceInLayers(elements, settings.meters, p); });
-  if (stages.cancelled()) return out;
-  std::vector<int32_t> kept(layers->size(), -1);
-  for (size_t l = 0; l < layers->size(); ++l) {
-    const LightLayer& of = layers->layers[l];
-    BakedLayer layer{of.name, LayerRole::Lamp, of.fluxLm, of.position, true, 0, {}, {}, {}};
-    layer.color = luminance(of.fluxLm) > 0 ? of.fluxLm / luminance(of.fluxLm) : Vec3(1);
-    for (size_t i = 0; i < elements.size(); ++i) {
-      layer.lux.push_back(readings.at(i, l));
-      layer.errorLux.push_back(readings.standardErrorLux[i * readings.layers + l]);
-    }
-    if (!givesLight(layer)) continue;
+  std::vector<BakedLayer> found;
+  for (const LightLayer& of : layers->layers) {
+    found.push_back({of.name, LayerRole::Lamp, Vec3(1), of.position, true, 0, {}, {}, {}});
+    if (luminance(of.fluxLm) > 0) found.back().color = of.fluxLm / luminance(of.fluxLm);
+  }
+  if (!stages.run("lamps", [&](const Progress& p) { return readLamps(*light.value(), elements, settings, p, found); }))
+    return out;
+  std::vector<int32_t> kept(found.size(), -1);
+  for (size_t l = 0; l < found.size(); ++l) {
+    if (!givesLight(found[l])) continue;
     kept[l] = static_cast<int32_t>(out.layers.size());
-    out.layers.push_back(std::move(layer));
+    out.layers.push_back(std::move(found[l]));
   }
   for (size_t e = 0; e < light.value()->lights().emitterCount(); ++e)
     out.ofInstance[light.value()->lights().emitterInstance(e)] = kept[static_cast<size_t>(layers->ofEmitter[e])];
@@ -111,15 +165,10 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
     const Result<std::unique_ptr<LitScene>> light = lit(scene, settings.render, stages);
     if (!light) return Error{light.error()};
     if (!light.value()) return out;
-    const std::vector<MeterReading> readings = stages.run(sun ? "sun" : "sky", [&](const Progress& p) {
-      return light.value()->illuminance(elements, settings.meters, p);
-    });
-    if (stages.cancelled()) return out;
     BakedLayer layer{sun ? "Sun" : "Sky", sun ? LayerRole::Sun : LayerRole::Sky, {}, {}, true, hour, {}, {}, {}};
-    for (const MeterReading& r : readings) {
-      layer.lux.push_back(r.illuminanceLux);
-      layer.errorLux.push_back(static_cast<float>(r.standardErrorLux));
-    }
+    if (!stages.run(sun ? "sun" : "sky",
+                    [&](const Progress& p) { return readDaylight(*light.value(), elements, settings, p, layer); }))
+      return out;
     layer.color = meanColor(layer.lux);
     if (!sun) layer.panorama = panoramaOf(light.value()->lights().sky());
     if (!sun || givesLight(layer)) out.push_back(std::move(layer));

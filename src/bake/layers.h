@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/atlas.h"
+#include "bake/kept_light.h"
 #include "engine/lit_scene.h"
 #include "engine/settings.h"
 
@@ -27,6 +28,7 @@ struct BakedLayer {
 struct LayerSettings {
   RenderSettings render;  // technique, voxels, cached light
   MeterSettings meters{0.2, 16, 32, 0};
+  KeptLight kept;  // readings of runs before
 };
 
 struct LampLayers {

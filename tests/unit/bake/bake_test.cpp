@@ -114,6 +114,29 @@ TEST_F(Bake, theFileOpensAsAnyGltfAndHoldsWhatIsSeen) {
   EXPECT_NEAR(bounds.hi.y, 2.5f, 1e-5);
 }
 
+// Another reader finds the same corners, within a step, in a smaller file.
+TEST_F(Bake, aCompressedFileHoldsTheSameHome) {
+  Scene scene = room(0.5f);
+  addSphere(scene, {2, 1, 1.5f}, 0.3f, 0);
+  const TemporaryFolder folder;
+  size_t bytes[2] = {};
+  Bounds3 bounds[2];
+  size_t triangles[2] = {};
+  for (const bool compressed : {false, true}) {
+    settings_.glb.compressed = compressed;
+    const std::string glb = bakeHome(scene, {}, settings_, stages_).value().glb.bytes;
+    bytes[compressed] = glb.size();
+    std::ofstream(folder / "home.glb", std::ios::binary) << glb;
+    const Result<Imported> opened = importScene(folder / "home.glb");
+    ASSERT_TRUE(opened) << opened.error();
+    bounds[compressed] = opened.value().scene.bounds();
+    triangles[compressed] = opened.value().scene.triangleCount();
+  }
+  EXPECT_LT(bytes[1], bytes[0] * 3 / 4);
+  EXPECT_EQ(triangles[1], triangles[0]);
+  EXPECT_LT(length(bounds[1].lo - bounds[0].lo) + length(bounds[1].hi - bounds[0].hi), 2e-4f);
+}
+
 TEST_F(Bake, theExtensionNamesLampRoomAndCamera) {
   Scene scene = room(0.5f);
   Camera camera;
@@ -208,6 +231,55 @@ TEST_F(Bake, theSameBitsByOneThreadAndByTwo) {
       EXPECT_TRUE(baked.value().glb.bytes == first);
     });
   }
+}
+
+// Two rooms that no door joins, a camera in the second.
+TEST_F(Bake, roomsThatAreNotWalkedInAreLeftOut) {
+  Scene scene = room(0.5f);
+  addRoom(scene, {6, 0, 0}, {10, 2.5f, 3}, std::vector<int>(6, 0));
+  Lamp other = pointLamp({8, 2, 1.5f}, kCandela);
+  other.name = "Floor lamp";
+  scene.lamps.push_back(other);
+  Room bath;
+  bath.name = "Bath", bath.floor = {{6, 0}, {6, 3}, {10, 3}, {10, 0}};
+  scene.rooms.push_back(bath);
+  Camera camera;
+  camera.name = "Tub", camera.worldFromCamera.w = {8, 1.6f, 2};
+  scene.cameras = {camera};
+  BakeWish wish;
+  for (const size_t which : {size_t{0}, size_t{1}}) {
+    wish.rooms = {which};
+    const Result<BakedHome> baked = bakeHome(scene, wish, settings_, stages_);
+    ASSERT_TRUE(baked) << baked.error();
+    EXPECT_EQ(baked.value().triangles, 12u);
+    const auto light = jsonOf(baked.value().glb.bytes)["extensions"]["ROOMLIGHT_light_layers"];
+    ASSERT_EQ(light["rooms"].size(), 1u);
+    EXPECT_EQ(light["rooms"][0]["name"], which == 0 ? "Kitchen" : "Bath");
+    ASSERT_EQ(light["layers"].size(), 1u);
+    EXPECT_EQ(light["layers"][0]["name"], which == 0 ? "Pendant" : "Floor lamp");
+    ASSERT_GE(light["cameras"].size(), 1u) << "one is proposed where there is none";
+    if (which == 1) EXPECT_EQ(light["cameras"][0]["name"], "Tub");
+  }
+}
+
+TEST_F(Bake, theBudgetIsKept) {
+  const Scene scene = room(0.5f);
+  BakeWish wish;
+  const size_t free = bakeHome(scene, wish, settings_, stages_).value().glb.bytes.size();
+  wish.budgetBytes = free * 3 / 4;
+  const Result<BakedHome> small = bakeHome(scene, wish, settings_, stages_);
+  ASSERT_TRUE(small) << small.error();
+  EXPECT_LE(small.value().glb.bytes.size(), wish.budgetBytes);
+  EXPECT_GT(small.value().settings.charts.texelM, settings_.charts.texelM);
+}
+
+TEST_F(Bake, whatARunBeforeHasFoundGivesTheSameBits) {
+  const TemporaryFolder folder;
+  settings_.layers.kept = KeptLight(folder / "home.light");
+  const Scene scene = room(0.5f);
+  const std::string first = bakeHome(scene, {}, settings_, stages_).value().glb.bytes;
+  EXPECT_TRUE(settings_.layers.kept.any());
+  EXPECT_TRUE(bakeHome(scene, {}, settings_, stages_).value().glb.bytes == first);
 }
 
 TEST_F(Bake, aHomeThatNobodySeesIsToldSo) {

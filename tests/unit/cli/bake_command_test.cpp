@@ -61,6 +61,40 @@ TEST(BakeCommand, wrongWordsAreOneLineBeforeAnyWork) {
   EXPECT_FALSE(std::filesystem::exists(folder / "home.glb"));
 }
 
+TEST(BakeCommand, roomsByNameAndABudget) {
+  const TemporaryFolder folder;
+  const std::string room = testing::writeRoom(folder).string();
+  const std::pair<std::vector<std::string>, std::string> faults[] = {
+      {{"--rooms", "Attic"}, "--rooms: no room 'Attic'"},
+      {{"--budget", "20"}, "--budget 20: write a size such as 20MB"},
+      {{"--budget", "-1MB"}, "--budget -1MB"},
+  };
+  for (const auto& [words, part] : faults) {
+    std::vector<std::string> all{"bake", room, "-o", folder / "home.glb", "--quality", "draft"};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramRun run = runProgram(all);
+    EXPECT_NE(run.exitStatus, 0);
+    EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+  }
+  const ProgramRun tight =
+      runProgram({"bake", room, "-o", folder / "home.glb", "--quality", "draft", "--budget", "0.001MB"});
+  EXPECT_EQ(tight.exitStatus, 0) << tight.err;
+  EXPECT_NE(tight.err.find("above the budget of 0.0 MB"), std::string::npos) << tight.err;
+}
+
+TEST(BakeCommand, goesOnWhereItWasInterrupted) {
+  const TemporaryFolder folder;
+  const std::string room = testing::writeRoom(folder).string();
+  const std::vector<std::string> words{"bake", room, "--quality", "draft", "--light", "day", "-o", folder / "home.glb"};
+  const ProgramRun first = runProgram(words, "lamps");
+  ASSERT_EQ(first.exitStatus, 130) << first.err;
+  EXPECT_NE(first.err.find("home.glb.light"), std::string::npos) << first.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "home.glb.light"));
+  const ProgramRun second = runProgram(words);
+  ASSERT_EQ(second.exitStatus, 0) << second.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "home.glb.light")) << "what was kept is not needed any more";
+}
+
 TEST(BakeCommand, interruptedItWritesNothing) {
   const TemporaryFolder folder;
   const ProgramRun run =

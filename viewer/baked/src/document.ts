@@ -49,6 +49,15 @@ const material = v.object({
   extras: v.optional(v.object({ lightLayers: v.optional(v.array(index), []) })),
 });
 
+const compression = v.object({
+  byteOffset: v.optional(index, 0),
+  byteLength: index,
+  byteStride: size,
+  mode: v.picklist(["ATTRIBUTES", "TRIANGLES"]),
+  count: index,
+});
+export type Compression = Checked<typeof compression>;
+
 const light = v.object({ bufferView: index, scale: positive, tiles: v.array(index) });
 const panorama = v.object({ bufferView: index, width: size, height: size, scale: positive });
 const layer = v.object({
@@ -104,7 +113,18 @@ const gltf = v.object({
     [],
   ),
   bufferViews: v.optional(
-    v.array(v.object({ byteOffset: v.optional(index, 0), byteLength: index, byteStride: v.optional(size) })),
+    v.array(
+      v.object({
+        byteOffset: v.optional(index, 0),
+        byteLength: index,
+        byteStride: v.optional(size),
+        extensions: v.optional(v.object({ EXT_meshopt_compression: v.optional(compression) }), {}),
+      }),
+    ),
+    [],
+  ),
+  nodes: v.optional(
+    v.array(v.object({ translation: v.optional(triple, [0, 0, 0]), scale: v.optional(triple, [1, 1, 1]) })),
     [],
   ),
   meshes: v.pipe(

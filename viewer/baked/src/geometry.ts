@@ -147,7 +147,7 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
       if (countOf(document, at, name) !== count) throw new BadFile("damaged", `primitive ${i}: ${name}: its count`);
       copyAccessor(document, binary, at, types, components, to, first * stride, stride);
     };
-    fill("POSITION", [kFloat], 3, positions, 3);
+    fill("POSITION", [kFloat, kUnsignedShort], 3, positions, 3);
     fill("NORMAL", [kByte], 3, normals, 4);
     fill("TEXCOORD_0", [kFloat], 2, uvs, 2);
     fill("TEXCOORD_1", [kUnsignedShort], 2, lightUvs, 2);
@@ -167,6 +167,7 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
     list.parts.push(readIndex(document, binary, primitive.indices, first, count, `primitive ${i}`));
     first += count;
   });
+  placeInWorld(positions, document.nodes[0]);
   const total = [...lists.values()].flatMap(list => list.parts).reduce((sum, part) => sum + part.length, 0);
   const index = new Uint32Array(total);
   const batches: Batch[] = [];
@@ -180,6 +181,13 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
     batches.push({ ...of, index: index.subarray(from, at) });
   }
   return { positions, normals, uvs, lightUvs, colors, tags, index, batches, packed };
+}
+
+// Positions may be whole numbers of steps: the one node says how long, and from where.
+function placeInWorld(positions: Float32Array, node: Gltf["nodes"][number] | undefined): void {
+  if (!node) return;
+  const { scale, translation } = node;
+  for (let i = 0; i < positions.length; ++i) positions[i] = positions[i]! * scale[i % 3]! + translation[i % 3]!;
 }
 
 function packedMaps(maps: Maps, allowed: boolean, packed: readonly number[]): Maps {

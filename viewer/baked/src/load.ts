@@ -4,6 +4,7 @@ import { BadFile } from "./bad_file.js";
 import { checkDocument, viewBytes, type Gltf } from "./document.js";
 import { readGeometry, type Geometry } from "./geometry.js";
 import { parseGlb } from "./glb.js";
+import { expanded } from "./meshopt.js";
 import type { Stage } from "./stage.js";
 import type { TextureSource } from "./surfaces.js";
 import { inflate, joinPlanes } from "./texels.js";
@@ -22,8 +23,8 @@ const kWrap: Readonly<Record<number, THREE.Wrapping>> = {
 };
 
 export async function readHome(bytes: Uint8Array): Promise<LoadedHome> {
-  const { json, binary } = parseGlb(bytes);
-  const document = checkDocument(json);
+  const file = parseGlb(bytes);
+  const { document, binary } = await expanded(checkDocument(file.json), file.binary);
   const geometry = readGeometry(document, binary);
   const images = await Promise.all(
     document.images.map(({ bufferView, mimeType }, i) => {
