@@ -1,4 +1,4 @@
-"""Reads the pictures that `roomlight render` writes as .exr."""
+"""Reads pictures as `roomlight render` writes them in .exr, and writes plain ones."""
 import re
 import struct
 import zlib
@@ -33,3 +33,20 @@ def read_exr(file):
             raw = mixed.tobytes()
         out[y - y0:y - y0 + rows] = numpy.frombuffer(raw, "<f4").reshape(rows, len(names), width)
     return {name: out[:, i, :] for i, name in enumerate(names)}, header
+
+
+def write_exr(file, pixels):
+    """height x width x 3, linear Rec.709, as 32-bit floats without compression."""
+    height, width = pixels.shape[:2]
+    attribute = lambda name, kind, body: name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(body)) + body
+    channels = b"".join(c + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for c in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    header = struct.pack("<ii", 20000630, 2) + attribute("channels", "chlist", channels) + attribute("compression", "compression", b"\0")
+    header += attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window) + attribute("lineOrder", "lineOrder", b"\0")
+    header += attribute("pixelAspectRatio", "float", struct.pack("<f", 1)) + attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0))
+    header += attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0"
+    line = 8 + 12 * width
+    first = len(header) + 8 * height
+    offsets = struct.pack(f"<{height}Q", *(first + line * y for y in range(height)))
+    rows = [struct.pack("<ii", y, 12 * width) + pixels[y, :, ::-1].T.astype("<f4").tobytes() for y in range(height)]
+    file.write_bytes(header + offsets + b"".join(rows))

@@ -131,7 +131,7 @@ Result<ShownAs> shownAs(const Scene& scene, Stages& stages) {
   ShownAs shown;
   if (picture.value().image.pixels.empty()) return shown;
   const Display display = usualDisplay();
-  shown.curve = display.tone.curve;
+  shown.tone = display.tone;
   shown.ev100 = ev100Of(display, picture.value().image);
   shown.whiteGains = whiteOf(display, picture.value().lightColour).gains;
   return shown;

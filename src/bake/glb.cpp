@@ -276,7 +276,8 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
       {"cameras", camerasJson(cameras)},
       {"camera", cameraInUse(scene, cameras)},
       {"display",
-       {{"ev100", shown.ev100}, {"tone", toneCurveName(shown.curve)}, {"whiteGains", vectorJson(shown.whiteGains)}}}};
+       {{"ev100", shown.ev100}, {"tone", toneCurveName(shown.tone.curve)}, {"contrast", shown.tone.contrast},
+        {"saturation", shown.tone.saturation}, {"whiteGains", vectorJson(shown.whiteGains)}}}};
   if (!daylight.empty()) light["hour"] = daylight.front().hour;
   glb.json["extensions"]["ROOMLIGHT_light_layers"] = light;
   glb.json["extensionsUsed"].push_back("ROOMLIGHT_light_layers");

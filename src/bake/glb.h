@@ -18,7 +18,7 @@ struct GlbSettings {
 
 // What a picture of the home's own light from its camera is exposed and balanced by.
 struct ShownAs {
-  ToneCurve curve = ToneCurve::PbrNeutral;
+  Tone tone;
   float ev100 = 8;
   Vec3 whiteGains{1, 1, 1};
 };

@@ -28,6 +28,7 @@ const kFragment = `
   uniform sampler2D uImage, uRamp;
   uniform vec3 uExposure;
   uniform int uTone;
+  uniform vec2 uGrade;
   uniform bool uLux;
   uniform vec2 uScale; // lux: logarithms of the ends
   in vec2 vUv;
@@ -42,7 +43,7 @@ const kFragment = `
       outColor = vec4(image.r > 0.0 ? texture(uRamp, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb : vec3(0.09), 1.0);
       return;
     }
-    vec3 shown = srgbEncode(toneCurve(image * uExposure, uTone));
+    vec3 shown = srgbEncode(toneCurve(image * uExposure, uTone, uGrade));
     outColor = vec4(clamp(shown + (dither(gl_FragCoord.xy) - 0.5) / 255.0, 0.0, 1.0), 1.0);
   }`;
 const kMeterFragment = `
@@ -88,6 +89,7 @@ export class Display {
   readonly uniforms: Uniforms = {
     uExposure: { value: new THREE.Vector3() },
     uTone: { value: 0 },
+    uGrade: { value: new THREE.Vector2(1, 1) },
     uLux: { value: false },
     uEncode: { value: false },
     uMostRadiance: { value: kMostStored * kUnit },
@@ -120,6 +122,7 @@ export class Display {
     this.show = quad(kFragment, { ...this.uniforms, uImage: image, uRamp: { value: rampTexture }, uScale: this.scale });
     this.meterQuad = quad(kMeterFragment, { uImage: image, uLux: this.uniforms.uLux! });
     this.uniforms.uTone!.value = kToneNumbers[home.display.tone];
+    (this.uniforms.uGrade!.value as THREE.Vector2).set(home.display.contrast, home.display.saturation);
     this.ev100 = home.display.ev100;
   }
 

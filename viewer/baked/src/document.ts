@@ -95,6 +95,8 @@ const extension = v.object({
   display: v.object({
     ev100: real,
     tone: v.picklist(["neutral", "agx", "filmic", "clip"]),
+    contrast: v.optional(positive, 1),
+    saturation: v.optional(v.pipe(real, v.minValue(0)), 1),
     whiteGains: v.optional(triple, [1, 1, 1]),
   }),
 });

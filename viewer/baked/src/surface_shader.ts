@@ -8,13 +8,14 @@ export const kFinishGlsl = `
   uniform bool uEncode; // no pass follows that would: on headsets
   uniform bool uLux; // false colours
   uniform int uTone;
+  uniform vec2 uGrade;
   uniform vec3 uExposure; // with the gains of the white balance
   uniform float uMostRadiance; // cd/m2; lamps are no brighter, so that their edges are smooth
   ${kToneGlsl}
   vec3 finish(vec3 radiance, vec3 lux) {
     float amount = dot(lux, vec3(0.2126, 0.7152, 0.0722)) / ${kUnit.toFixed(1)};
     if (uLux) return vec3(min(amount, ${kMostStored.toFixed(1)}));
-    if (uEncode) return srgbEncode(toneCurve(radiance * uExposure, uTone));
+    if (uEncode) return srgbEncode(toneCurve(radiance * uExposure, uTone, uGrade));
     return min(radiance, uMostRadiance) / ${kUnit.toFixed(1)};
   }`;
 
@@ -99,7 +100,7 @@ export const kSurfaceFragment = `
   #define ENVMAP_TYPE_CUBE_UV
   #include <cube_uv_reflection_fragment>
 
-  const float kPi = 3.14159265;
+  const float kPi = 3.14159265, kRough = 0.8;
   float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
   // Directional albedo of GGX: f0 * x + f90 * y (fit of Karis 2014, "Physically based shading on mobile").
@@ -122,16 +123,17 @@ export const kSurfaceFragment = `
   }
 
   // Radiance that the probe has for a reflection. What is lit otherwise than the middle of the room, in other rooms or
-  // in corners, is given a share after its own light.
+  // in corners, is given a share after its own light. What is rough reflects as it is lit, without a look at the probe.
   vec3 reflected(vec3 n, vec3 v, float roughness, vec3 lux) {
     #ifdef PROBE
-      if (!uReflect) return lux / kPi;
+      if (!uReflect || roughness >= kRough) return lux / kPi;
       vec3 r = normalize(mix(reflect(-v, n), n, roughness * roughness));
       float inside;
       vec3 radiance = textureCubeUV(uProbe, normalize(seenFromProbe(r, inside)), roughness).rgb * ${kUnit.toFixed(1)};
       vec3 around = textureCubeUV(uProbe, n, 1.0).rgb * ${kUnit.toFixed(1)};
       float share = min(luminance(lux) / max(luminance(around) * kPi, 1e-4), 4.0);
-      return radiance * mix(share, 1.0, inside * (1.0 - smoothstep(0.1, 0.6, roughness)));
+      vec3 seen = radiance * mix(share, 1.0, inside * (1.0 - smoothstep(0.1, 0.6, roughness)));
+      return mix(seen, lux / kPi, smoothstep(0.6, kRough, roughness));
     #else
       return lux / kPi;
     #endif

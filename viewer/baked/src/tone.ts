@@ -41,8 +41,13 @@ export const kToneGlsl = `
     float beyond = peak > shoulder ? (peak - shoulder) / (1.0 - shoulder) : 0.0, white = beyond * beyond;
     return color * ((1.0 - white) * peak / x) + white * peak;
   }
-  vec3 toneCurve(vec3 exposed, int curve) {
-    vec3 v = max(exposed, 0.0);
+  // x: contrast about middle grey, y: saturation.
+  vec3 graded(vec3 color, vec2 grade) {
+    float y = dot(color, vec3(0.2126, 0.7152, 0.0722)), gain = pow(max(y / 0.18, 1e-6), grade.x - 1.0);
+    return max(mix(vec3(y), color, grade.y) * gain, 0.0);
+  }
+  vec3 toneCurve(vec3 exposed, int curve, vec2 grade) {
+    vec3 v = graded(max(exposed, 0.0), grade);
     return curve == 0 ? toneNeutral(v) : curve == 1 ? toneAgx(v) : curve == 2 ? toneFilmic(v) : v;
   }
   vec3 srgbEncode(vec3 linear) {
@@ -92,10 +97,21 @@ function filmic(color: Vec3): Vec3 {
   return color.map(v => (v * (1 - white) * peak) / x + white * peak) as unknown as Vec3;
 }
 
+export interface Grade {
+  readonly contrast: number; // exponent of luminance about middle grey
+  readonly saturation: number;
+}
+
+function graded(color: Vec3, { contrast, saturation }: Grade): Vec3 {
+  const y = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
+  const gain = Math.max(y / 0.18, 1e-6) ** (contrast - 1);
+  return color.map(c => Math.max(0, gain * (y + saturation * (c - y)))) as unknown as Vec3;
+}
+
 // Display values 0 to 1 of exposed light.
-export function toned(exposed: Vec3, tone: ToneName): Vec3 {
+export function toned(exposed: Vec3, tone: ToneName, grade: Grade = { contrast: 1, saturation: 1 }): Vec3 {
   const curve = { neutral, agx, filmic, clip: (c: Vec3) => c }[tone];
-  return curve(exposed.map(c => Math.max(0, c)) as unknown as Vec3).map(c => {
+  return curve(graded(exposed.map(c => Math.max(0, c)) as unknown as Vec3, grade)).map(c => {
     const v = Math.min(1, Math.max(0, c));
     return v > 0.0031308 ? 1.055 * v ** (1 / 2.4) - 0.055 : 12.92 * v;
   }) as unknown as Vec3;

@@ -85,6 +85,16 @@ test("scenes are kept, and a browser that keeps none is told apart", () => {
   assert.equal(evening(home).sky.on, false);
 });
 
+test("contrast is about middle grey, and saturation leaves luminance", () => {
+  const linear = (v: number) => (v > 0.04045 ? ((v + 0.055) / 1.055) ** 2.4 : v / 12.92);
+  const shown = (color: Vec3, contrast: number, saturation: number) =>
+    toned(color, "clip", { contrast, saturation }).map(linear) as unknown as Vec3;
+  nearAll(shown([0.18, 0.18, 0.18], 1.5, 1), [0.18, 0.18, 0.18], 1e-5);
+  nearAll(shown([0.36, 0.36, 0.36], 1.5, 1), [0.36 * 2 ** 0.5, 0.36 * 2 ** 0.5, 0.36 * 2 ** 0.5], 1e-5);
+  const grey = 0.2126 * 0.4 + 0.7152 * 0.2 + 0.0722 * 0.1;
+  nearAll(shown([0.4, 0.2, 0.1], 1, 0), [grey, grey, grey], 1e-5);
+});
+
 test("tone curves are those of the pictures", () => {
   // Reckoned by src/base/tone_curves.h.
   const curves = ["neutral", "agx", "filmic", "clip"] as const;
