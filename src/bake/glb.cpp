@@ -268,16 +268,18 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
       layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux), out.lightBytes));
   }
   const std::vector<Camera> cameras = camerasInside(scene);
-  Json light = {
-      {"version", 1},
-      {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
-      {"layers", layers},
-      {"rooms", roomsJson(scene)},
-      {"cameras", camerasJson(cameras)},
-      {"camera", cameraInUse(scene, cameras)},
-      {"display",
-       {{"ev100", shown.ev100}, {"tone", toneCurveName(shown.tone.curve)}, {"contrast", shown.tone.contrast},
-        {"saturation", shown.tone.saturation}, {"whiteGains", vectorJson(shown.whiteGains)}}}};
+  Json light = {{"version", 1},
+                {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
+                {"layers", layers},
+                {"rooms", roomsJson(scene)},
+                {"cameras", camerasJson(cameras)},
+                {"camera", cameraInUse(scene, cameras)},
+                {"display",
+                 {{"ev100", shown.ev100},
+                  {"tone", toneCurveName(shown.tone.curve)},
+                  {"contrast", shown.tone.contrast},
+                  {"saturation", shown.tone.saturation},
+                  {"whiteGains", vectorJson(shown.whiteGains)}}}};
   if (!daylight.empty()) light["hour"] = daylight.front().hour;
   glb.json["extensions"]["ROOMLIGHT_light_layers"] = light;
   glb.json["extensionsUsed"].push_back("ROOMLIGHT_light_layers");
