@@ -1,8 +1,8 @@
 // What the light of a baked home costs the chip, and whether a long walk takes memory:
 //   node frames_baked.js FOLDER WIDTHxHEIGHT [MINUTES]
 // FOLDER is one by `roomlight bake -o FOLDER`. Its page, and plain three.js with the same geometry unlit, turn on the
-// spot in one browser, as many pixels each. To stdout: {"page": {"ms", "width", "height"}, "plain": {..}, "heapMiB": [..],
-// "longTasksAMinute": ..}, with the heap after each minute of a walk and tasks above 50 ms.
+// spot in one browser, as many pixels each. To stdout, as JSON: milliseconds a frame and sizes of both, the heap in MiB
+// after each minute of a walk, and tasks above 50 ms a minute.
 import { readFileSync, readdirSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -21,7 +21,9 @@ const glb = readdirSync(folder).find(file => file.endsWith(".glb"));
 if (!glb) throw new Error(`${folder}: no .glb`);
 
 const kPlain = `<!doctype html><style>body{margin:0}</style><canvas id="view"></canvas>
-<script type="importmap">{"imports":{"three":"/three/build/three.module.js","three/addons/":"/three/examples/jsm/"}}</script>
+<script type="importmap">{"imports":{
+  "three": "/three/build/three.module.js", "three/addons/": "/three/examples/jsm/"
+}}</script>
 <script type="module">
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
