@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bake/budget.h"
 #include "bake/light_texels.h"
@@ -115,6 +116,20 @@ void spread(const LaidOut& laid, std::vector<BakedLayer>& layers) {
 }
 
 constexpr int kShownWidth = 320, kShownHeight = 180;
+constexpr float kMostWhite = 0.3f;  // of a picture,
+constexpr float kAlmostWhite = 0.9f;
+constexpr float kMostHeldEv = 1.5f;
+
+// Pages expose all of a picture alike, where `render` holds what is bright by local exposure: where most of a picture
+// would be white it is exposed darker.
+float heldEv100(float ev100, const Image& image) {
+  std::vector<float> light;
+  for (const Vec3& p : image.pixels) light.push_back(luminance(p));
+  const auto bright = light.begin() + static_cast<ptrdiff_t>((1 - kMostWhite) * static_cast<float>(light.size()));
+  std::nth_element(light.begin(), bright, light.end());
+  const float over = *bright * exposureFromEv100(ev100) / kAlmostWhite;
+  return ev100 + std::clamp(std::log2(std::max(over, 1.0f)), 0.0f, kMostHeldEv);
+}
 
 Result<ShownAs> shownAs(const Scene& scene, Stages& stages) {
   RenderSettings render;
@@ -132,7 +147,7 @@ Result<ShownAs> shownAs(const Scene& scene, Stages& stages) {
   if (picture.value().image.pixels.empty()) return shown;
   const Display display = usualDisplay();
   shown.tone = display.tone;
-  shown.ev100 = ev100Of(display, picture.value().image);
+  shown.ev100 = heldEv100(ev100Of(display, picture.value().image), picture.value().image);
   shown.whiteGains = whiteOf(display, picture.value().lightColour).gains;
   return shown;
 }

@@ -48,22 +48,22 @@ int GlbWriter::addCompressed(std::string_view bytes, size_t count, size_t stride
                                                       reinterpret_cast<const unsigned int*>(bytes.data()), count)
                           : meshopt_encodeVertexBuffer(packed.data(), packed.size(), bytes.data(), count, stride));
   const int view = addView({reinterpret_cast<const char*>(packed.data()), packed.size()});
-  Json& json = views_.back();
-  json["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
-                                                   {"byteOffset", json["byteOffset"]},
-                                                   {"byteLength", packed.size()},
-                                                   {"byteStride", stride},
-                                                   {"mode", triangles ? "TRIANGLES" : "ATTRIBUTES"},
-                                                   {"count", count}};
-  json["buffer"] = 1, json["byteOffset"] = plainBytes_, json["byteLength"] = bytes.size();
+  Json& added = views_.back();
+  added["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                    {"byteOffset", added["byteOffset"]},
+                                                    {"byteLength", packed.size()},
+                                                    {"byteStride", stride},
+                                                    {"mode", triangles ? "TRIANGLES" : "ATTRIBUTES"},
+                                                    {"count", count}};
+  added["buffer"] = 1, added["byteOffset"] = plainBytes_, added["byteLength"] = bytes.size();
   plainBytes_ += bytes.size();
   return view;
 }
 
 void GlbWriter::setBounds(int accessor, const Bounds3& bounds) {
-  Json& json = accessors_[static_cast<size_t>(accessor)];
-  json["min"] = {bounds.lo.x, bounds.lo.y, bounds.lo.z};
-  json["max"] = {bounds.hi.x, bounds.hi.y, bounds.hi.z};
+  Json& of = accessors_[static_cast<size_t>(accessor)];
+  of["min"] = {bounds.lo.x, bounds.lo.y, bounds.lo.z};
+  of["max"] = {bounds.hi.x, bounds.hi.y, bounds.hi.z};
 }
 
 std::string GlbWriter::finished() {
