@@ -28,7 +28,7 @@ Result<BakeSettings> bakeSettings(const std::string& quality);
 struct BakeWish {
   std::vector<Lamp> offLamps;       // baked as well, off at first
   std::vector<DaylightHour> hours;  // none: no daylight
-  std::vector<size_t> rooms;        // that are walked in, numbers; none: all
+  std::vector<size_t> rooms = {};        // that are walked in, numbers; none: all
   size_t budgetBytes = 0;           // for the file, 0: as large as it gets
   bool asText = false;              // it will be written compressed, as text in a page
 };
