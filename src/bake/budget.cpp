@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kCoarsestM = 0.016f, kLongestTexel = 4;
 constexpr float kStep = 1.4142135f;  // of the length of a texel
-// What is left of each part after a step, as measured on the sample homes.
+// What is reckoned to be left of each part after a step; where that is wrong textures make up for it.
 constexpr double kGeometryLeft = 0.75, kTexturesLeft = 0.35, kLightLeft = 0.55;
 
 struct Step {
