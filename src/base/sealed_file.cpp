@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
 
 #include "base/hash.h"
 #include "base/write_file.h"
@@ -19,11 +18,18 @@ std::optional<std::string> contentOf(const std::filesystem::path& file) {
   std::error_code code;
   std::ifstream in(file, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(file, code)) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  // At once: light of a home takes hundreds of megabytes. What grows or shrinks meanwhile is told by its seal.
+  const uintmax_t size = std::filesystem::file_size(file, code);
+  std::string bytes(code ? 0 : size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<size_t>(in.gcount()));
+  return bytes;
 }
 
+void seal(std::string& bytes) { bytes += hashOf(bytes); }
+
 Status saveSealed(const std::filesystem::path& file, std::string bytes) {
-  bytes += hashOf(bytes);
+  seal(bytes);
   return writeWhole(file, bytes);
 }
 

@@ -12,7 +12,10 @@ namespace roomlight {
 // Of a regular file; none where there is none to read.
 std::optional<std::string> contentOf(const std::filesystem::path& file);
 
-// Whole or not at all, with a hash of the bytes behind them.
+// Adds what loadSealed() tells by whether the bytes are as they were.
+void seal(std::string& bytes);
+
+// Whole or not at all, sealed.
 Status saveSealed(const std::filesystem::path& file, std::string bytes);
 
 // What was saved; none where there is no file. The error is of a file that is not as it was written.
