@@ -19,6 +19,7 @@ namespace roomlight {
 
 class FrameHistory;
 class SlotSnapshot;
+struct LightStore;
 struct Technique;
 
 // One of many pictures of a lit scene, such as frames, or those that are averaged.
@@ -127,6 +128,7 @@ struct LitUse {
 };
 
 // Refers to the scene, which must be validated and stay where it is. Errors: an unknown technique, settings out of
+  const LightStore* store = nullptr;  // for stills that have no limit: where light of technique.sharesLight is shared
 // range, layers that the technique or the scene does not have. Null if cancelled.
 Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages,
                                              const LitUse& use = {});

@@ -26,6 +26,7 @@ struct Renderer::State {
   const Scene& scene;
   const RenderSettings settings;
   const std::vector<Camera> cameras;
+  const std::optional<LightStore> store;
   std::unique_ptr<LitScene> lit;  // null: there is no light yet
 
   Result<Picture> picture(const Camera& camera, Stages& stages);
@@ -37,7 +38,11 @@ Result<Picture> Renderer::State::picture(const Camera& camera, Stages& stages) {
   const double limit = settings.timeLimitS > 0 ? settings.timeLimitS : std::numeric_limits<double>::infinity();
   if (!lit) {
     auto made = lightScene(scene, settings, stages,
-                           {false, cameras.empty() ? std::span(&camera, 1) : std::span(cameras), true, limit});
+                           {.changes = false,
+                            .cameras = cameras.empty() ? std::span(&camera, 1) : std::span(cameras),
+                            .stills = true,
+                            .seconds = limit,
+                            .store = store && settings.timeLimitS <= 0 ? &*store : nullptr});
     if (!made) return Error{made.error()};
     lit = std::move(made).value();
   } else {
@@ -51,10 +56,11 @@ Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-Result<Renderer> Renderer::of(const Scene& scene, const RenderSettings& settings, std::vector<Camera> cameras) {
+Result<Renderer> Renderer::of(const Scene& scene, const RenderSettings& settings, std::vector<Camera> cameras,
+                              std::optional<LightStore> store) {
   if (const Status status = checkSettings(settings); !status) return Error{status.error()};
   if (const auto technique = techniqueNamed(settings.technique); !technique) return Error{technique.error()};
-  return Renderer(std::unique_ptr<State>(new State{scene, settings, std::move(cameras), {}}));
+  return Renderer(std::unique_ptr<State>(new State{scene, settings, std::move(cameras), std::move(store), {}}));
 }
 
 Result<Rendered> Renderer::picture(const Camera& camera, const RenderProgress& progress) {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
 #include "base/progress.h"
 #include "base/result.h"
+#include "engine/light_store.h"
 #include "engine/settings.h"
 #include "engine/sights.h"
 #include "scene/scene.h"
@@ -56,8 +58,11 @@ struct RenderProgress {
 class Renderer {
  public:
   // `cameras`: all that pictures are taken of; none: the first alone. What of the light they do not show is found with
-  // fewer rays. Errors: an unknown technique, settings out of range. `scene` must be validated; it is referred to.
-  static Result<Renderer> of(const Scene& scene, const RenderSettings& settings, std::vector<Camera> cameras = {});
+  // fewer rays. `store`: where light is shared with other processes that light the scene for these cameras; it is not
+  // used with a time limit. Errors: an unknown technique, settings out of range. `scene` must be validated; it is
+  // referred to.
+  static Result<Renderer> of(const Scene& scene, const RenderSettings& settings, std::vector<Camera> cameras = {},
+                             std::optional<LightStore> store = {});
   Renderer(Renderer&&) noexcept;
   ~Renderer();
   Result<Rendered> picture(const Camera& camera, const RenderProgress& progress = {});

@@ -41,6 +41,7 @@ struct Technique {
   bool keepsWhatStands = false;  // update() keeps light that a change has nothing to do with; else all is done anew
   bool hasSnapshots = false;  // LitScene::snapshot, for frames in a few milliseconds
   bool fillsTimeLimit = false;  // a time limit is kept whole, and what time is left makes the picture better
+  bool sharesLight = false;  // LitUse::store: processes find the light of stills once for all of them
   bool refinesToTruth = false;  // the mean of its pictures of one view comes to the judge's
 
   MeterAccuracy meters;

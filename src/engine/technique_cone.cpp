@@ -43,6 +43,7 @@ const Technique kConeTechnique{
     .followsDaylight = true,
     .keepsWhatStands = true,
     .hasSnapshots = true,
+    .sharesLight = true,
     .meters = {.allowedPercent = 10, .ofSum = true, .isValidated = true, .places = 181, .worstPercent = 0.88},
     .light = light,
 };

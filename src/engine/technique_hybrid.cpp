@@ -162,4 +162,5 @@ const Technique kHybridTechnique{
     .light = light,
 };
 
+    .sharesLight = true,
 }  // namespace roomlight

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/light_store.h"
 #include "engine/technique_settings.h"
 #include "engine/time_plan.h"
 #include "gather/frame.h"
@@ -54,6 +55,7 @@ class VoxelScene : public LitScene {
     radiance_ = radiance;
     if (use.stills) {
       fixed_ = std::isfinite(use.seconds) ? lightVoxelsWithin(use.seconds, {rays(), lights()}, voxel, radiance_, stages)
+               : use.store                ? sharedLight(*use.store, rays(), lights(), voxel, radiance_, stages)
                                           : lightVoxels(rays(), lights(), voxel, radiance_, stages);
     } else {
       voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(rays().scene(), voxel); });

@@ -54,6 +54,10 @@ class LampGlow {
     return cones > 0 ? cones * cones / (cones * cones + points * points) : 0;
   }
   size_t bytes() const { return points_.size() * sizeof(GlowPoint); }
+  // All that `glow` holds, for who keeps it in files.
+  static void visit(auto& glow, auto&& member) {
+    member(glow.points_), member(glow.voxelSizeM_), member(glow.perRadiance_);
+  }
 
  private:
   float shareAt(const GlowPoint& g, float distance, float cosLight, const GlowCone& cone) const;

@@ -32,6 +32,10 @@ class SeenLights {
                       std::span<LightSample> out) const;
   float pdfEmitters(const Lights& lights, Vec3 p, int32_t side, const SurfacePoint& q) const;
   size_t bytes() const { return lamps_.bytes() + emitters_.bytes(); }
+  // All that `seen` holds, array by array, for who keeps it in files.
+  static void visit(auto& seen, auto&& array) {
+    for (auto* table : {&seen.lamps_, &seen.emitters_}) array(table->first), array(table->parts);
+  }
 
  private:
   struct Table {
