@@ -13,7 +13,7 @@ void gatherHome(benchmark::State& state, const Home& home) {
   const Lights lights(home.scene);
   const Voxelisation v = voxelise(home.scene, {});
   const RadianceField field = illuminate(rays, lights, v.voxels, {});
-  GatherSettings settings;
+  ConeGatherSettings settings;
   settings.width = 480, settings.height = 270;
   double traced = 0, cones = 0;
   for (auto _ : state) {

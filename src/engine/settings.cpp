@@ -68,7 +68,7 @@ void visitHybrid(auto& v, auto& s) {
   v.number("filterPasses", s.filterPasses, 0, 8);
 }
 
-void visitGather(auto& v, auto& s) {
+void visitCone(auto& v, auto& s) {
   v.number("raysPerShading", s.raysPerShading, 1, 8);
   v.number("conesPerShading", s.conesPerShading, 1, 4096);
   v.number("coneHalfAngleDeg", s.coneHalfAngleDeg, 0.1, 60);
@@ -169,7 +169,7 @@ void visitMembers(auto& v, auto& s) {
   v.group("voxel", [&](auto& g) { visitVoxel(g, s.voxel); });
   v.group("radiance", [&](auto& g) { visitRadiance(g, s.radiance); });
   v.group("hybrid", [&](auto& g) { visitHybrid(g, s.hybrid); });
-  v.group("gather", [&](auto& g) { visitGather(g, s.gather); });
+  v.group("cone", [&](auto& g) { visitCone(g, s.cone); });
   v.group("vxgi", [&](auto& g) { visitVxgi(g, s.vxgi); });
   v.group("lpv", [&](auto& g) { visitLpv(g, s.lpv); });
   v.group("photon", [&](auto& g) { visitPhoton(g, s.photon); });

@@ -53,7 +53,7 @@ struct RenderSettings {
   VoxelSettings voxel;  // techniques "hybrid" and "cone"
   RadianceSettings radiance;  // of the same; its seed is the one above
   RayGatherSettings hybrid;  // technique "hybrid"; size, samples, time limit and seed are those above
-  GatherSettings gather;  // technique "cone"; size, samples, time limit and seed are those above
+  ConeGatherSettings cone;  // technique "cone"; size, samples, time limit and seed are those above
   VxgiSettings vxgi;  // technique "vxgi"; size, samples, time limit and seed are those above
   LpvSettings lpv;  // technique "lpv"; the same
   PhotonSettings photon;  // technique "photon"; size, samples, time limit and seed are those above

@@ -7,10 +7,10 @@
 namespace roomlight {
 namespace {
 
-class ConeScene final : public VoxelScene<ConeShader, GatherSettings> {
+class ConeScene final : public VoxelScene<ConeShader, ConeGatherSettings> {
  public:
   ConeScene(const Scene& scene, const RenderSettings& settings, const LitUse& use, Stages& stages)
-      : VoxelScene(kConeTechnique, scene, stageOf(settings, settings.gather), stages) {
+      : VoxelScene(kConeTechnique, scene, stageOf(settings, settings.cone), stages) {
     RadianceSettings radiance = settings.radiance;
     radiance.seed = settings.seed;
     // Pictures of the study's method know voxels alone; its meters also what lies beside them.
@@ -20,7 +20,7 @@ class ConeScene final : public VoxelScene<ConeShader, GatherSettings> {
     light(settings.voxel, radiance, whole, stages);
   }
   Result<Picture> still(const Camera& camera, double seconds, Stages& stages) override {
-    const GatherSettings use = within(seconds, gatherSettings());
+    const ConeGatherSettings use = within(seconds, gatherSettings());
     GatheredPicture result = stages.run(
         "gather", [&](const Progress& p) { return gatherPicture(rays(), lights(), *shader(), camera, use, p); });
     tellNumbers(voxels(), field(), result, stages);

@@ -11,8 +11,8 @@
 
 namespace roomlight {
 
-struct GatherSettings : PictureSettings {
-  GatherSettings() { rayRoughness = 0.6f; }
+struct ConeGatherSettings : PictureSettings {
+  ConeGatherSettings() { rayRoughness = 0.6f; }
   int conesPerShading = 2;        // diffuse cones
   float coneHalfAngleDeg = 0.3f;
   float startOffsetVoxels = 0.05f;  // along the normal
@@ -21,13 +21,13 @@ struct GatherSettings : PictureSettings {
 };
 
 GatheredPicture gatherCones(const TracedScene& scene, const Voxels& voxels, const RadianceField& field,
-                            const Camera& camera, const GatherSettings& settings, const Progress& progress = {});
+                            const Camera& camera, const ConeGatherSettings& settings, const Progress& progress = {});
 
 // Technique `cone` at one surface point: cones for diffuse light and where reflections are rough.
 class ConeShader final : public DirectShader {
  public:
   ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
-             const GatherSettings& settings);
+             const ConeGatherSettings& settings);
 
  private:
   Vec3 indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float& occlusion) const override;
@@ -45,7 +45,7 @@ class ConeShader final : public DirectShader {
   int64_t slotNear(const SurfacePoint& s, Sampler& sampler) const;
 
   const RadianceField& field_;
-  const GatherSettings& settings_;
+  const ConeGatherSettings& settings_;
   const ConeShape diffuse_;
 };
 

@@ -14,7 +14,7 @@ constexpr float kDoubt = 8;      // times the mean around: where rays check what
 }  // namespace
 
 ConeShader::ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
-                       const GatherSettings& settings)
+                       const ConeGatherSettings& settings)
     : DirectShader(rays, lights, voxels, field.guide, settings.rayRoughness),
       field_(field),
       settings_(settings),

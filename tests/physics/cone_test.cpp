@@ -14,7 +14,7 @@ namespace {
 
 struct ConeSetup {
   float voxelSizeM = 0.1f;
-  GatherSettings gather;
+  ConeGatherSettings gather;
   RadianceSettings radiance;
 };
 

@@ -40,7 +40,7 @@ struct Lit {
     return gatherRays({rays, lights}, voxels.voxels, field, camera, settings).image;
   }
   Image cone(const Camera& camera) const {
-    GatherSettings settings;
+    ConeGatherSettings settings;
     settings.width = settings.height = 48;
     return gatherCones({rays, lights}, voxels.voxels, field, camera, settings).image;
   }

@@ -75,7 +75,7 @@ class Frames : public ::testing::TestWithParam<std::string> {
   RenderSettings settings(int samples = 1, int filterPasses = 5) const {
     RenderSettings s = small(GetParam());
     s.samples = samples;
-    for (PictureSettings* p : {static_cast<PictureSettings*>(&s.hybrid), static_cast<PictureSettings*>(&s.gather),
+    for (PictureSettings* p : {static_cast<PictureSettings*>(&s.hybrid), static_cast<PictureSettings*>(&s.cone),
                                static_cast<PictureSettings*>(&s.vxgi), static_cast<PictureSettings*>(&s.lpv),
                                static_cast<PictureSettings*>(&s.photon)})
       p->filterPasses = filterPasses;

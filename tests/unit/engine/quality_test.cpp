@@ -1,7 +1,10 @@
 // Presets of quality, and how single settings go before them.
 #include "engine/settings.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "engine/technique.h"
 
 namespace roomlight {
 namespace {
@@ -52,6 +55,17 @@ TEST(Quality, settingsThatWereWrittenAreReadBack) {
   RenderSettings best;
   ASSERT_TRUE(applyQuality("best", best));
   EXPECT_EQ(settingsToJson(read(settingsToJson(best))), settingsToJson(best));
+}
+
+TEST(Settings, techniquesWithSettingsOfTheirOwnHaveAGroupOfTheirName) {
+  for (const Technique* t : techniques()) {
+    const std::string text = fmt::format(R"({{"{}": {{"noSuchMember": 1}}}})", t->name);
+    EXPECT_NE(settingsFromJson(text, "s.json").error().find(fmt::format("/{}/noSuchMember: unknown key", t->name)),
+              std::string::npos)
+        << t->name;
+  }
+  EXPECT_NE(settingsFromJson(R"({"gather": {}})", "s.json").error().find("/gather: unknown key; there are"),
+            std::string::npos);
 }
 
 TEST(Quality, unknownNamesAreErrorsThatListTheKnown) {
