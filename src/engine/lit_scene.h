@@ -120,7 +120,7 @@ class LitScene {
 // What a lit scene is for.
 struct LitUse {
   bool changes = true;  // there will be updates; without them `hybrid` also lights places that its voxels know nothing
-                        // of (radiance/first_bounce.h), and looks for lights where they are seen
+                        // of (radiance/hidden_light.h), and looks for lights where they are seen
   std::span<const Camera> cameras = {};  // to be looked from, the first one first; none: light is found for the whole
                                          // scene at once
   bool stills = false;  // LitScene::still will be called, for `cameras` alone where there are any; not with `changes`

@@ -1,9 +1,10 @@
-#include "radiance/first_bounce.h"
+#include "radiance/hidden_light.h"
 
 #include <atomic>
 
 #include "base/parallel.h"
 #include "radiance/near_lights.h"
+#include "radiance/slot_samples.h"
 #include "trace/traced_scene.h"
 
 namespace roomlight {

@@ -5,8 +5,9 @@
 
 #include "base/parallel.h"
 #include "radiance/bounces.h"
-#include "radiance/first_bounce.h"
+#include "radiance/hidden_light.h"
 #include "radiance/pyramid.h"
+#include "radiance/sun_bounce.h"
 #include "trace/lamp_light.h"
 
 namespace roomlight {

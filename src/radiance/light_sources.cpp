@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "radiance/first_bounce.h"
+#include "radiance/sun_bounce.h"
 
 namespace roomlight {
 

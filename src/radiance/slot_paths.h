@@ -49,7 +49,7 @@ class SlotPaths {
 
   SlotPaths() = default;
   // Of no use once `progress` says stop. Refers to rays and voxels. `strict`: surfaces a little behind a slot's place
-  // are none of its, for who lights those by themselves (first_bounce.h); else their light would be lost, and the
+  // are none of its, for who lights those by themselves (hidden_light.h); else their light would be lost, and the
   // slot's stands for it. Where bricks are carried from `before`, if given, what was found there stands.
   SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict = false,
             const Before* before = nullptr);

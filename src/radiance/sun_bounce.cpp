@@ -1,9 +1,10 @@
-#include "radiance/first_bounce.h"
+#include "radiance/sun_bounce.h"
 
 #include <algorithm>
 #include <atomic>
 
 #include "base/parallel.h"
+#include "radiance/slot_samples.h"
 #include "scene/surface.h"
 #include "trace/traced_scene.h"
 
