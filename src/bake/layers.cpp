@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bake/light_blocks.h"
+#include "bake/meter_chunks.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "scene/scene_hash.h"
@@ -74,9 +74,9 @@ void append(BakedLayer& layer, const float* n) {
 bool readLamps(const LitScene& light, std::span<const SurfaceElement> places, const LayerSettings& settings,
                const Progress& progress, std::vector<BakedLayer>& layers) {
   const size_t count = layers.size();
-  const LightBlocks blocks{places, 4 * count, inputsOf(light, settings), settings.kept, settings.meters};
-  const auto measure = [&](std::span<const SurfaceElement> block, const MeterSettings& meters, const Progress& p) {
-    const LayeredReadings readings = light.illuminanceInLayers(block, meters, p);
+  const MeterChunks chunks{places, 4 * count, inputsOf(light, settings), settings.kept, settings.meters};
+  const auto measure = [&](std::span<const SurfaceElement> chunk, const MeterSettings& meters, const Progress& p) {
+    const LayeredReadings readings = light.illuminanceInLayers(chunk, meters, p);
     std::vector<float> numbers;
     numbers.reserve(4 * readings.lux.size());
     for (size_t i = 0; i < readings.lux.size(); ++i) {
@@ -88,15 +88,15 @@ bool readLamps(const LitScene& light, std::span<const SurfaceElement> places, co
   const auto take = [&](size_t, std::span<const float> numbers) {
     for (size_t i = 0; i < numbers.size() / 4; ++i) append(layers[i % count], &numbers[4 * i]);
   };
-  return blocks.read(measure, take, progress);
+  return chunks.read(measure, take, progress);
 }
 
 bool readDaylight(const LitScene& light, std::span<const SurfaceElement> places, const LayerSettings& settings,
                   const Progress& progress, BakedLayer& layer) {
-  const LightBlocks blocks{places, 4, inputsOf(light, settings), settings.kept, settings.meters};
-  const auto measure = [&](std::span<const SurfaceElement> block, const MeterSettings& meters, const Progress& p) {
+  const MeterChunks chunks{places, 4, inputsOf(light, settings), settings.kept, settings.meters};
+  const auto measure = [&](std::span<const SurfaceElement> chunk, const MeterSettings& meters, const Progress& p) {
     std::vector<float> numbers;
-    for (const MeterReading& r : light.illuminance(block, meters, p)) {
+    for (const MeterReading& r : light.illuminance(chunk, meters, p)) {
       const Vec3 e = r.illuminanceLux;
       numbers.insert(numbers.end(), {e.x, e.y, e.z, static_cast<float>(r.standardErrorLux)});
     }
@@ -105,7 +105,7 @@ bool readDaylight(const LitScene& light, std::span<const SurfaceElement> places,
   const auto take = [&](size_t, std::span<const float> numbers) {
     for (size_t i = 0; i < numbers.size() / 4; ++i) append(layer, &numbers[4 * i]);
   };
-  return blocks.read(measure, take, progress);
+  return chunks.read(measure, take, progress);
 }
 
 constexpr int kSkyWidth = 256, kSkyHeight = 128;

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "bake/light_blocks.h"
+#include "bake/meter_chunks.h"
 #include "unit/temporary_folder.h"
 
 namespace roomlight::bake {
@@ -58,20 +58,20 @@ TEST(KeptLight, withoutAFolderNothingIsKept) {
   }
 }
 
-// A reader that is stopped in its third block measures the rest when it is asked again.
-TEST(LightBlocks, measureWhatIsNotKept) {
+// A reader that is stopped in its third chunk measures the rest when it is asked again.
+TEST(MeterChunks, measureWhatIsNotKept) {
   const TemporaryFolder folder;
   const KeptLight kept(folder / "home.light");
   std::vector<SurfaceElement> places(70'000);
   for (size_t i = 0; i < places.size(); ++i) places[i].position.x = static_cast<float>(i);
-  const LightBlocks blocks{places, 1, "inputs", kept, {}};
+  const MeterChunks chunks{places, 1, "inputs", kept, {}};
   std::atomic<bool> stop = false;
-  size_t measured = 0, mostBlocks = 2;
-  const auto measure = [&](std::span<const SurfaceElement> block, const MeterSettings&, const Progress&) {
-    stop = measured == mostBlocks;
+  size_t measured = 0, mostChunks = 2;
+  const auto measure = [&](std::span<const SurfaceElement> chunk, const MeterSettings&, const Progress&) {
+    stop = measured == mostChunks;
     ++measured;
     std::vector<float> out;
-    for (const SurfaceElement& e : block) out.push_back(e.position.x);
+    for (const SurfaceElement& e : chunk) out.push_back(e.position.x);
     return out;
   };
   std::vector<float> taken;
@@ -79,18 +79,18 @@ TEST(LightBlocks, measureWhatIsNotKept) {
     EXPECT_EQ(first, taken.size());
     taken.insert(taken.end(), numbers.begin(), numbers.end());
   };
-  EXPECT_FALSE(blocks.read(measure, take, {{}, &stop}));
+  EXPECT_FALSE(chunks.read(measure, take, {{}, &stop}));
   EXPECT_EQ(measured, 3u);
   EXPECT_EQ(taken.size() % 1024, 0u) << "what was stopped is not handed on";
   const size_t done = taken.size();
-  stop = false, measured = 0, mostBlocks = 100, taken.clear();
+  stop = false, measured = 0, mostChunks = 100, taken.clear();
   float told = 0;
-  EXPECT_TRUE(blocks.read(measure, take, {[&](float f) { told = f; }, &stop}));
-  EXPECT_EQ(measured, 3u) << "of five blocks two are kept";
+  EXPECT_TRUE(chunks.read(measure, take, {[&](float f) { told = f; }, &stop}));
+  EXPECT_EQ(measured, 3u) << "of five chunks two are kept";
   ASSERT_EQ(taken.size(), places.size());
   EXPECT_GT(taken.size(), done);
   for (size_t i = 0; i < taken.size(); ++i) ASSERT_EQ(taken[i], static_cast<float>(i));
-  const LightBlocks others{places, 1, "other inputs", kept, {}};
+  const MeterChunks others{places, 1, "other inputs", kept, {}};
   measured = 0, taken.clear();
   EXPECT_TRUE(others.read(measure, take, {}));
   EXPECT_EQ(measured, 5u);

@@ -1,4 +1,4 @@
-// Light on many places, found block by block, so that what an interrupted run has found is there for the next.
+// Light on many places, found chunk by chunk, so that what an interrupted run has found is there for the next.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 namespace roomlight::bake {
 
 // What is read at the places of one light.
-struct LightBlocks {
+struct MeterChunks {
   std::span<const SurfaceElement> places;
   size_t numbersAPlace = 4;
   std::string inputs;  // a hash of all that readings depend on beside the places
