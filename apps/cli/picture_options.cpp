@@ -52,7 +52,7 @@ void addDisplayOptions(CLI::App& command, DisplayOptions& options, const std::st
   command.add_option("--white-balance", options.whiteBalance,
                      "auto: surfaces have their own colours, with a trace of the light's warmth; 0% to 100%: so much "
                      "of it; none; or the temperature in kelvin of light that shall look white");
-  command.add_option("--tone", options.tone, "Tone curve: neutral, agx, filmic or clip");
+  command.add_option("--tone", options.tone, fmt::format("Tone curve: {}", fmt::join(toneCurveNames(), ", ")));
   command.add_option("--contrast", options.contrast, "Of luminance, about middle grey; 1: as the light is")
       ->check(CLI::Range(0.5, 2.0));
   command.add_option("--saturation", options.saturation, "Of colours; 1: as the light is, 0: grey")

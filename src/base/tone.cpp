@@ -1,6 +1,6 @@
 #include "base/tone.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -48,11 +48,17 @@ MapRun mapRunOf(ToneCurve curve) {
 
 }  // namespace
 
+std::vector<std::string> toneCurveNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, curve] : kCurves) names.emplace_back(name);
+  return names;
+}
+
 Result<ToneCurve> toneCurveFromName(std::string_view name) {
   for (const auto& [known, curve] : kCurves) {
     if (name == known) return curve;
   }
-  return Error{fmt::format("unknown tone curve '{}'; there are neutral, agx, filmic, clip", name)};
+  return Error{fmt::format("unknown tone curve '{}'; there are {}", name, fmt::join(toneCurveNames(), ", "))};
 }
 
 std::string_view toneCurveName(ToneCurve curve) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/image.h"
 #include "base/result.h"
@@ -28,7 +30,9 @@ struct Tone {
   bool plain() const { return contrast == 1 && saturation == 1; }
 };
 
-Result<ToneCurve> toneCurveFromName(std::string_view name);  // "neutral", "agx", "filmic", "clip"
+// What curves are called in options, messages and files: "neutral", ... The default first.
+std::vector<std::string> toneCurveNames();
+Result<ToneCurve> toneCurveFromName(std::string_view name);  // errors: an unknown name; the line lists those there are
 std::string_view toneCurveName(ToneCurve curve);
 
 // The factor by which cd/m² are multiplied so that the saturation-based exposure of EV100 maps its maximum

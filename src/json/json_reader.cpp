@@ -14,7 +14,7 @@ namespace {
 template <class Words>
 std::string joined(const Words& words) {
   std::string all;
-  for (const char* w : words) all += (all.empty() ? "" : ", ") + std::string(w);
+  for (const auto& w : words) all += (all.empty() ? "" : ", ") + std::string(w);
   return all;
 }
 
@@ -117,10 +117,14 @@ double JsonPlace::quantity(Unit unit, double low, double high) const {
 }
 
 std::string JsonPlace::oneOf(std::initializer_list<const char*> words) const {
+  return oneOf(std::vector<std::string>(words.begin(), words.end()));
+}
+
+std::string JsonPlace::oneOf(std::span<const std::string> words) const {
   const std::string written = text();
-  if (std::any_of(words.begin(), words.end(), [&](const char* w) { return written == w; })) return written;
+  if (std::find(words.begin(), words.end(), written) != words.end()) return written;
   fail(fmt::format("unknown '{}'; there are {}", written.substr(0, 60), joined(words)));
-  return *words.begin();
+  return words.front();
 }
 
 }  // namespace roomlight

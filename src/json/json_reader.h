@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "base/vec.h"
@@ -38,6 +39,7 @@ class JsonPlace {
   Vec3 vector(double low, double high) const;             // [x, y, z]
   double quantity(Unit unit, double low, double high) const;  // "800 lm"
   std::string oneOf(std::initializer_list<const char*> words) const;
+  std::string oneOf(std::span<const std::string> words) const;
 
   // With a default where the key is missing.
   double number(const char* key, double low, double high, double otherwise) const {

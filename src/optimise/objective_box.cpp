@@ -1,6 +1,7 @@
 #include "optimise/evaluate.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "search/front.h"
 
@@ -47,6 +48,7 @@ ObjectiveBox boxOf(const Model& m) {
       case Objective::Cost: return most.cost;
       case Objective::Fittings: return most.fittings;
     }
+    assert(!"an objective whose worst nobody has stated");
     return 0.0;
   };
   ObjectiveBox box;

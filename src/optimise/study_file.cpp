@@ -278,6 +278,12 @@ void readPlace(const TomlPlace& j, const Reading& r) {
   r.out.places.push_back(p);
 }
 
+std::vector<std::string> objectiveNames() {
+  std::vector<std::string> names;
+  for (const ObjectiveInfo& o : objectiveTable()) names.emplace_back(o.name);
+  return names;
+}
+
 void readObjectives(const TomlPlace& root, StudyFile& out) {
   if (!root.has("objectives")) {
     out.objectives = {Objective::TargetMiss, Objective::Energy, Objective::Cost};
@@ -285,7 +291,7 @@ void readObjectives(const TomlPlace& root, StudyFile& out) {
   }
   const TomlPlace list = root["objectives"];
   for (size_t i = 0, n = list.size(); i < n; ++i) {
-    const std::string word = list.at(i).oneOf({"targetMiss", "uniformity", "glare", "energy", "cost", "fittings"});
+    const std::string word = list.at(i).oneOf(objectiveNames());
     for (const ObjectiveInfo& o : objectiveTable()) {
       if (word != o.name) continue;
       if (std::find(out.objectives.begin(), out.objectives.end(), o.objective) != out.objectives.end())
@@ -296,7 +302,7 @@ void readObjectives(const TomlPlace& root, StudyFile& out) {
   if (out.objectives.size() < 2 || out.objectives.size() > kMostObjectives) list.fail("must be two to four");
   if (out.eyes.empty() &&
       std::find(out.objectives.begin(), out.objectives.end(), Objective::Glare) != out.objectives.end())
-    list.fail("'glare' needs an [[eye]] to judge from");
+    list.fail(fmt::format("'{}' needs an [[eye]] to judge from", infoOf(Objective::Glare).name));
 }
 
 void readLimits(const TomlPlace& root, StudyFile& out) {

@@ -24,9 +24,10 @@ const char* nameOf(TomlNode::Kind kind) {
   return "";
 }
 
-std::string listOf(std::initializer_list<const char*> words) {
+template <class Words>
+std::string listOf(const Words& words) {
   std::string out;
-  for (const char* w : words) out += (out.empty() ? "'" : ", '") + std::string(w) + "'";
+  for (const auto& w : words) out += (out.empty() ? "'" : ", '") + std::string(w) + "'";
   return out;
 }
 
@@ -122,8 +123,12 @@ double TomlPlace::quantity(Unit unit, double low, double high) const {
 }
 
 std::string TomlPlace::oneOf(std::initializer_list<const char*> words) const {
+  return oneOf(std::vector<std::string>(words.begin(), words.end()));
+}
+
+std::string TomlPlace::oneOf(std::span<const std::string> words) const {
   const std::string word = text();
-  if (std::none_of(words.begin(), words.end(), [&](const char* w) { return word == w; }))
+  if (std::find(words.begin(), words.end(), word) == words.end())
     fail(fmt::format("must be one of {}, but is '{}'", listOf(words), printable(word)));
   return word;
 }

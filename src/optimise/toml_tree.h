@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,7 @@ class TomlPlace {
   Vec3 vector() const;                                        // [x, y, z], metres
   double quantity(Unit unit, double low, double high) const;  // "150 lx"
   std::string oneOf(std::initializer_list<const char*> words) const;
+  std::string oneOf(std::span<const std::string> words) const;
   std::vector<std::string> texts() const;
 
   // With a default where the key is missing.

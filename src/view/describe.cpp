@@ -194,7 +194,7 @@ Json homeJson(const ViewHome& home) {
           {"cameras", camerasJson(home.scene)},
           {"techniques", namedJson(describedTechniques())},
           {"qualities", namedJson(qualities())},
-          {"curves", {"neutral", "agx", "filmic", "clip"}},
+          {"curves", toneCurveNames()},
           {"legend", legend},
           {"limits",
            {{"frameWidth", kMostFrameWidth},

@@ -78,7 +78,7 @@ Message readDisplay(const JsonPlace& j) {
     out.ev100.emplace(j["exposure"].isText("auto") ? std::optional<float>()
                                                    : static_cast<float>(j["exposure"].number(-10, 25)));
   if (j.has("compensation")) out.compensationEv = static_cast<float>(j["compensation"].number(-10, 10));
-  if (j.has("curve")) out.curve = toneCurveFromName(j["curve"].oneOf({"neutral", "agx", "filmic", "clip"})).value();
+  if (j.has("curve")) out.curve = toneCurveFromName(j["curve"].oneOf(toneCurveNames())).value();
   if (j.has("whiteBalance")) {
     const JsonPlace white = j["whiteBalance"];
     out.automaticWhite = white.isText("auto");

@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/temporary_folder.h"
+
 namespace roomlight {
 namespace {
+
+std::string sourceText(const std::string& file) {
+  return testing::readFile(std::string(ROOMLIGHT_SOURCE_DIR "/") + file);
+}
 
 Image constant(Vec3 value) {
   Image image(10, 10);
@@ -71,7 +77,8 @@ TEST(Tone, automaticExposureIgnoresBlackPixelsAndAFewLamps) {
 }
 
 TEST(Tone, curvesStayWithinZeroAndOneAndRiseWithLight) {
-  for (ToneCurve curve : {ToneCurve::PbrNeutral, ToneCurve::AgX, ToneCurve::Filmic, ToneCurve::Clip}) {
+  for (const std::string& name : toneCurveNames()) {
+    const ToneCurve curve = toneCurveFromName(name).value();
     float last = -1;
     for (float ev = -14; ev < 20; ev += 0.25f) {
       const Vec3 v = toneMap(constant(Vec3(std::exp2(ev))), 0, curve).pixels[0];
@@ -128,11 +135,24 @@ TEST(Tone, contrastTurnsAboutMiddleGreyAndSaturationAboutGrey) {
 }
 
 TEST(Tone, namesRoundTripAndUnknownNamesListTheChoice) {
-  for (const char* name : {"neutral", "agx", "filmic", "clip"})
-    EXPECT_EQ(toneCurveName(toneCurveFromName(name).value()), name);
+  EXPECT_EQ(toneCurveNames(), (std::vector<std::string>{"neutral", "agx", "filmic", "clip"}));
+  EXPECT_EQ(toneCurveName(Tone().curve), toneCurveNames().front());
+  for (const std::string& name : toneCurveNames()) EXPECT_EQ(toneCurveName(toneCurveFromName(name).value()), name);
   const auto wrong = toneCurveFromName("sepia");
   ASSERT_FALSE(wrong.ok());
   EXPECT_NE(wrong.error().find("neutral, agx, filmic, clip"), std::string::npos);
+}
+
+// Pages that list the curves, and what baked pages take.
+TEST(Tone, documentationAndBakedPagesNameEveryCurve) {
+  std::string list;
+  for (const std::string& name : toneCurveNames()) {
+    list += (list.empty() ? "\"" : ", \"") + name + "\"";
+    for (const char* page : {"docs/reference/command-line.md", "docs/reference/conventions.md"})
+      EXPECT_NE(sourceText(page).find("`" + name + "`"), std::string::npos) << name << " is not in " << page;
+  }
+  EXPECT_NE(sourceText("docs/reference/view-protocol.md").find("\"curves\": [" + list + "]"), std::string::npos);
+  EXPECT_NE(sourceText("viewer/baked/src/document.ts").find("tone: v.picklist([" + list + "])"), std::string::npos);
 }
 
 }  // namespace

@@ -40,13 +40,14 @@ TEST(Mixer, packingIsBelowOneFiveHundredTwelfthOfADisplayStep) {
   const std::vector<Image> pictures = somePictures(kWidth, kHeight);
   const std::vector<Vec3> gains = {{0.7f, 0.9f, 1.5f}, Vec3(1), Vec3(0.05f), Vec3(1)};
   const Image exact = exactSum(pictures, gains), mixed = mixLinear(stackOf(pictures), gains);
-  for (const ToneCurve tone : {ToneCurve::PbrNeutral, ToneCurve::AgX, ToneCurve::Filmic, ToneCurve::Clip}) {
+  for (const std::string& name : toneCurveNames()) {
+    const ToneCurve tone = toneCurveFromName(name).value();
     for (const float ev100 : {1.0f, 4.0f, 8.0f}) {
       const Image a = toneMap(exact, ev100, tone), b = toneMap(mixed, ev100, tone);
       float worst = 0;
       for (size_t p = 0; p < a.pixels.size(); ++p)
         worst = std::max(worst, maxComponent(abs(a.pixels[p] - b.pixels[p])) * 255);
-      EXPECT_LT(worst, 1.0f / 512) << toneCurveName(tone) << " at EV " << ev100;
+      EXPECT_LT(worst, 1.0f / 512) << name << " at EV " << ev100;
     }
   }
 }
@@ -56,8 +57,9 @@ TEST(Mixer, bytesAreThoseOfTheToneMappedMixDithered) {
   const LayerStack stack = stackOf(pictures);
   const std::vector<Vec3> gains(4, Vec3(1));
   const Affine balance{{0.6f, 0, 0}, {0, 1.1f, 0}, {0, 0, 2.5f}, {}};
-  for (const Tone& tone : {Tone(ToneCurve::PbrNeutral), Tone(ToneCurve::AgX), Tone(ToneCurve::Filmic),
-                           Tone(ToneCurve::Clip), Tone(ToneCurve::PbrNeutral, 1.2f, 0.9f)}) {
+  std::vector<Tone> tones = {Tone(ToneCurve::PbrNeutral, 1.2f, 0.9f)};
+  for (const std::string& name : toneCurveNames()) tones.emplace_back(toneCurveFromName(name).value());
+  for (const Tone& tone : tones) {
     Image light = mixLinear(stack, gains);
     for (Vec3& p : light.pixels) p = balance.vector(p);
     const Image expected = toneMap(light, 4, tone);

@@ -147,6 +147,22 @@ TEST(Search, DesignsByChanceHaveFewLampsTooAndAreOthersInEachGeneration) {
   EXPECT_EQ(lamps(39), p.model.places());
 }
 
+// The table of objectives, the results of designs and the box know the same ones.
+TEST(Box, EveryObjectiveHasAResultAndAWorst) {
+  SmallProblem p;
+  DesignResult result;
+  result.missPercent = 1, result.unevenness = 2, result.glare = 3, result.kWhPerYear = 4, result.cost = 5,
+  result.fittings = 6;
+  double sum = 0;
+  for (const ObjectiveInfo& o : objectiveTable()) {
+    p.model.objectives = {o.objective};
+    EXPECT_GT(boxOf(p.model).reference.at(0), 0.1) << o.name;
+    EXPECT_GT(result.of(o.objective), 0) << o.name;
+    sum += result.of(o.objective);
+  }
+  EXPECT_EQ(sum, 1 + 2 + 3 + 4 + 5 + 6);
+}
+
 // Designs on a limit still count.
 TEST(Box, ReachesBeyondLimitsAndHoldsStandby) {
   const SmallProblem p(std::string(kStudy) + "[limits]\nwatts = 30\ncost = 200\n");

@@ -26,6 +26,21 @@ TEST(StudyFile, IsReadWithDefaults) {
   EXPECT_EQ(f.population % 4, 0u);
 }
 
+TEST(StudyFile, EveryObjectiveHasItsWordAndItsPlaceInTheDocumentation) {
+  for (const ObjectiveInfo& o : objectiveTable()) {
+    EXPECT_EQ(&infoOf(o.objective), &o);
+    const std::string other = o.objective == Objective::TargetMiss ? "cost" : "targetMiss";
+    const SmallStudy s(
+        replaced(kStudy, "[\"targetMiss\", \"energy\", \"cost\"]", fmt::format("[\"{}\", \"{}\"]", o.name, other)));
+    ASSERT_TRUE(s.read) << s.read.error();
+    EXPECT_EQ(s.study().objectives.front(), o.objective);
+    for (const char* page : {"reference/optimise.md", "methods/optimise.md", "use/proposals.md"})
+      EXPECT_NE(testing::readFile(ROOMLIGHT_SOURCE_DIR "/docs/" + std::string(page)).find(fmt::format("`{}`", o.name)),
+                std::string::npos)
+          << o.name << " is not in " << page;
+  }
+}
+
 TEST(StudyFile, HoursOfNightAndDayAreShared) {
   const SmallStudy s(replaced(kStudy, "hours = 1000\n",
                               "hours = 680\n[[condition]]\nname = \"late\"\ndaylight = \"none\"\n[[condition]]\nname = "
