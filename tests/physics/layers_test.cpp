@@ -5,6 +5,7 @@
 
 #include "engine/render.h"
 #include "scene/primitives.h"
+#include "support/techniques.h"
 
 namespace roomlight {
 namespace {
@@ -279,7 +280,7 @@ TEST(LayersOfCells, areThoseOfTheirLights) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Layers, testing::Values("hybrid", "path"),
+INSTANTIATE_TEST_SUITE_P(Techniques, Layers, testing::ValuesIn(test::techniquesThatCan(&Technique::layers)),
                          [](const auto& which) { return which.param; });
 
 TEST(LayersOfManyLamps, addUpAndADimOneHasLittleMoreNoise) {

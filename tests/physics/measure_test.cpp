@@ -7,13 +7,14 @@
 #include "measure/measure.h"
 #include "support/record.h"
 #include "support/rooms.h"
+#include "support/techniques.h"
 
 namespace roomlight {
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
 
-class Measure : public testing::TestWithParam<const char*> {
+class Measure : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<LitScene> light(const Scene& scene) {
     RenderSettings settings;
@@ -26,7 +27,7 @@ class Measure : public testing::TestWithParam<const char*> {
     settings.meters.tolerance = tolerance;
     return measure(*light(scene), plan, settings, stages_);
   }
-  double allowed() const { return std::string(GetParam()) == "path" ? 0.01 : 0.03; }
+  double allowed() const { return GetParam() == "path" ? 0.01 : 0.03; }
   void expectNear(double got, double expected, const char* what) const {
     test::record("measure", what, GetParam(), expected, got);
     EXPECT_NEAR(got, expected, allowed() * expected) << what;
@@ -124,8 +125,8 @@ TEST_P(Measure, daylightFactorIsAHundredInTheOpenAndLessOnAWall) {
              "daylight factor on a wall in the open, %");
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Measure, testing::Values("path", "hybrid"),
-                         [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Techniques, Measure, testing::ValuesIn(test::preciseTechniques()),
+                         [](const auto& p) { return p.param; });
 
 }  // namespace
 }  // namespace roomlight

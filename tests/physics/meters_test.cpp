@@ -5,11 +5,12 @@
 #include "base/parallel.h"
 #include "engine/lit_scene.h"
 #include "support/rooms.h"
+#include "support/techniques.h"
 
 namespace roomlight {
 namespace {
 
-class Meters : public testing::TestWithParam<const char*> {
+class Meters : public testing::TestWithParam<std::string> {
  protected:
   std::vector<double> read(const Scene& scene, const std::vector<SurfaceElement>& elements) const {
     RenderSettings settings;
@@ -48,8 +49,8 @@ TEST_P(Meters, doNotDependOnThreads) {
   EXPECT_EQ(lux[0], lux[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Meters, testing::Values("path", "hybrid", "cone"),
-                         [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Techniques, Meters, testing::ValuesIn(test::validatedTechniques()),
+                         [](const auto& p) { return p.param; });
 
 }  // namespace
 }  // namespace roomlight

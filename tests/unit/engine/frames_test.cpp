@@ -8,6 +8,7 @@
 #include "engine/lit_scene.h"
 #include "gather/frame.h"
 #include "support/rooms.h"
+#include "support/techniques.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight {
@@ -234,7 +235,7 @@ TEST(FrameHistoryTest, forgetsWhatWasBeforeAJump) {
   EXPECT_EQ(estimatesAfter(3), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Frames, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon"),
+INSTANTIATE_TEST_SUITE_P(Techniques, Frames, ::testing::ValuesIn(test::walkingTechniques()),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "base/progress.h"
 #include "engine/live_walk.h"
 #include "support/rooms.h"
+#include "support/techniques.h"
 
 namespace roomlight {
 namespace {
@@ -221,13 +222,7 @@ TEST_P(LitSceneUpdate, canBeCancelledAtAnyTime) {
 }
 
 // Those whose light follows suns and sky; with the others a scene is lit anew.
-const std::vector<std::string> kFollowDaylight = {"hybrid", "cone", "photon", "path"};
 class LitSceneDaylight : public LitSceneUpdate {};
-
-TEST(LitSceneTechniques, sayWhichFollowDaylight) {
-  for (const Technique* t : techniques())
-    EXPECT_EQ(t->followsDaylight, std::count(kFollowDaylight.begin(), kFollowDaylight.end(), t->name) == 1) << t->name;
-}
 
 TEST_P(LitSceneDaylight, theSunMoves) {
   Home home;
@@ -267,10 +262,10 @@ TEST_P(LitSceneDaylight, daylightThatWasOffAtFirstCanBeSwitchedOn) {
   expectSame(later, picture(*open(home.scene)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate,
-                         ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"),
+INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate, ::testing::ValuesIn(test::allTechniques()),
                          [](const auto& test) { return test.param; });
-INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneDaylight, ::testing::ValuesIn(kFollowDaylight),
+INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneDaylight,
+                         ::testing::ValuesIn(test::techniquesThatCan(&Technique::followsDaylight)),
                          [](const auto& test) { return test.param; });
 
 TEST(MeasureWalk, playsEveryFrameAndPutsAllBack) {

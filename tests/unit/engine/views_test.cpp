@@ -6,6 +6,7 @@
 #include "engine/sights.h"
 #include "reference/path_tracer.h"
 #include "support/rooms.h"
+#include "support/techniques.h"
 
 namespace roomlight {
 namespace {
@@ -184,7 +185,7 @@ TEST(Views, sectionsAreDrawnOverTheRest) {
   EXPECT_FLOAT_EQ(clear.pixels[1].x, (0.25f * 0.8f + 0.5f * 0.2f) / 0.75f);
 }
 
-class ViewsByTechnique : public testing::TestWithParam<const char*> {
+class ViewsByTechnique : public testing::TestWithParam<std::string> {
  protected:
   Image picture(const Scene& scene, const Camera& camera, int width, int height, int samples) const {
     RenderSettings settings;
@@ -195,8 +196,8 @@ class ViewsByTechnique : public testing::TestWithParam<const char*> {
     EXPECT_TRUE(rendered.ok()) << rendered.error();
     return rendered.ok() ? rendered.value().image : Image(width, height);
   }
-  bool isHybrid() const { return std::string(GetParam()) == "hybrid"; }
-  bool isPath() const { return std::string(GetParam()) == "path"; }
+  bool isHybrid() const { return GetParam() == "hybrid"; }
+  bool isPath() const { return GetParam() == "path"; }
 };
 
 // Walls emit 10 and reflect half of what they get: 20 in every direction.
@@ -271,7 +272,8 @@ TEST_P(ViewsByTechnique, sectionsAndEmptyBackdropAreBlack) {
   EXPECT_EQ(whole.at(1, 8), Vec3(0));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ViewsByTechnique, testing::Values("hybrid", "cone", "path"));
+INSTANTIATE_TEST_SUITE_P(Techniques, ViewsByTechnique, testing::ValuesIn(test::validatedTechniques()),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace roomlight

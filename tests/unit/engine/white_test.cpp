@@ -6,6 +6,7 @@
 #include "engine/lit_scene.h"
 #include "gather/quick_frames.h"
 #include "support/rooms.h"
+#include "support/techniques.h"
 
 namespace roomlight {
 namespace {
@@ -90,7 +91,7 @@ TEST_P(WhiteBy, picturesAreIlluminance) {
   EXPECT_LT(luxOf(seen, 1), 0.1 * luxOf(white, 1));  // the picture itself shows it black
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, WhiteBy, ::testing::Values("hybrid", "cone", "path"),
+INSTANTIATE_TEST_SUITE_P(Techniques, WhiteBy, ::testing::ValuesIn(test::validatedTechniques()),
                          [](const auto& test) { return test.param; });
 
 TEST_F(WhiteStrips, quickFramesAreIlluminance) {

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "served_home.h"
+#include "support/techniques.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define ROOMLIGHT_SANITIZED
@@ -185,7 +186,7 @@ class Visitor {
       case 8:
         return {{"type", "technique"},
                 {"id", id_},
-                {"technique", oneOf({"hybrid", "hybrid", "hybrid", "cone", "cone", "vxgi", "lpv", "photon", "path"})}};
+                {"technique", whole(0, 3) ? oneOf(test::allTechniques()) : technique::kHybrid}};
       case 9:
         return whole(0, 1) ? json{{"type", "split"}, {"id", id_}, {"split", nullptr}}
                            : json{{"type", "split"},

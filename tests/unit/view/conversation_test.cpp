@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "support/techniques.h"
 #include "unit/view/furnished_room.h"
 #include "unit/view/lit_room.h"
 
@@ -197,9 +198,9 @@ TEST(Conversation, aFailureIsWorthAnotherTryAfterAWish) {
 
 TEST(Conversation, windowsShowAFewTechniquesAtOnce) {
   Talk talk;
-  const char* names[] = {"hybrid", "cone", "vxgi", "lpv", "photon", "path"};
+  const std::vector<std::string> names = test::allTechniques();
   Connection c = 0;
-  for (const char* name : names) {
+  for (const std::string& name : names) {
     talk.open(++c);
     talk.say(c, {{"type", "technique"}, {"id", 1}, {"technique", name}});
     EXPECT_EQ(talk.hear(c)["type"], "ok") << name;
@@ -207,7 +208,7 @@ TEST(Conversation, windowsShowAFewTechniquesAtOnce) {
   const json split = {{"left", json::object()}, {"right", {{"technique", "hybrid"}, {"plan", "start"}}}};
   talk.say(c, {{"type", "split"}, {"id", 2}, {"split", split}});
   EXPECT_EQ(talk.hear(c)["code"], "notPossible");
-  EXPECT_EQ(talk.conversation.windowNamed(talk.conversation.windows().back().name)->technique, "path");
+  EXPECT_EQ(talk.conversation.windowNamed(talk.conversation.windows().back().name)->technique, names.back());
 }
 
 TEST(Conversation, ofPointsTheNewestWaits) {
