@@ -9,6 +9,7 @@
 #include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
+#include "light_options.h"
 #include "picture_options.h"
 #include "engine/settings.h"
 #include "engine/render.h"
@@ -24,8 +25,6 @@
 namespace roomlight::cli {
 namespace {
 
-constexpr const char* kAllCameras = "all";
-
 struct RenderOptions : SettingsOptions, SceneOptions {
   std::vector<std::string> cameras;
   std::string kind = "picture", stats;
@@ -37,7 +36,7 @@ struct RenderOptions : SettingsOptions, SceneOptions {
   std::optional<std::string> layerGroups;
   bool quiet = false;
   ViewOptions view;
-  bool allCameras() const { return std::find(cameras.begin(), cameras.end(), kAllCameras) != cameras.end(); }
+  LightOptions light;
 };
 
 // Everything that can be known to be wrong before any work is done.
@@ -46,6 +45,7 @@ struct RenderPlan {
   Display display;
   ViewWish view;
   home::OpenWish open;
+  std::optional<LightStore> store;
 };
 
 Status checkRenderOutputs(const RenderOptions& o) {
@@ -82,6 +82,19 @@ Status applyLayerGroups(const RenderOptions& o, RenderSettings& settings) {
   return any ? Status(Ok{}) : Error{"--layers: layers are written into .exr; add -o FILE.exr"};
 }
 
+// The cameras that light is found for decide, as they would in a process that takes pictures of them all.
+Result<home::OpenWish> openWishOf(const RenderOptions& o) {
+  std::vector<std::string> cameras = o.light.lightFor.empty() ? o.cameras : o.light.lightFor;
+  const std::string first = cameras.empty() || meansAll(cameras) ? "" : cameras.front();
+  Result<home::OpenWish> open = readSceneOptions(o, first);
+  if (!open) return open;
+  open.value().allCameras = meansAll(cameras) || meansAll(o.cameras);
+  if (!o.light.lightFor.empty()) cameras.insert(cameras.end(), o.cameras.begin(), o.cameras.end());
+  if (!open.value().allCameras && cameras.size() > 1)
+    open.value().moreCameras.assign(cameras.begin() + 1, cameras.end());
+  return open;
+}
+
 Result<RenderPlan> planRender(const RenderOptions& o) {
   RenderPlan plan;
   Result<RenderSettings> settings = readSettings(o, plan.settings);
@@ -94,11 +107,9 @@ Result<RenderPlan> planRender(const RenderOptions& o) {
   if (const Status status = applyLayerGroups(o, s); !status) return Error{status.error()};
   s.voxel.voxelSizeM = o.voxelSizeM.value_or(s.voxel.voxelSizeM);
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
-  Result<home::OpenWish> open = readSceneOptions(o, o.cameras.empty() || o.allCameras() ? "" : o.cameras.front());
+  Result<home::OpenWish> open = openWishOf(o);
   if (!open) return Error{open.error()};
   plan.open = std::move(open.value());
-  plan.open.allCameras = o.allCameras();
-  if (!o.allCameras() && o.cameras.size() > 1) plan.open.moreCameras.assign(o.cameras.begin() + 1, o.cameras.end());
   const Result<Display> display = readDisplay(o.display);
   if (!display) return Error{display.error()};
   plan.display = display.value();
@@ -110,6 +121,9 @@ Result<RenderPlan> planRender(const RenderOptions& o) {
         o.kind)};
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
+  Result<std::optional<LightStore>> store = readLightStore(o.light, s);
+  if (!store) return Error{store.error()};
+  plan.store = std::move(store.value());
   if (s.layers && !findTechnique(s.technique)->layers)
     return Error{fmt::format("--layers: technique {} does not keep lamps apart; use {}", s.technique,
                              techniquesWith(&Technique::layers))};
@@ -255,17 +269,27 @@ Status writeStats(const std::string& file, const RenderStats& stats, double tota
 // What is rendered: the scene under its light, and from where.
 struct HomeInView {
   home::OpenedHome opened;
-  std::vector<Camera> cameras;
+  std::vector<Camera> cameras;   // of the pictures
+  std::vector<Camera> lightFor;  // that light is found for
 };
 
 // Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and
-// plans see all rooms.
+// plans see all rooms. Who takes a picture from elsewhere than light is found for needs the whole.
 std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
+bool isAmong(const std::vector<Camera>& cameras, const Camera& camera) {
+  return std::any_of(cameras.begin(), cameras.end(),
+                     [&](const Camera& c) { return c.name == camera.name && seeTheSame(c, camera); });
+}
+
   if (findTechnique(plan.settings.technique)->role == TechniqueRole::Judge || plan.settings.layers) return std::nullopt;
-  if (std::any_of(home.cameras.begin(), home.cameras.end(),
-                  [](const Camera& c) { return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity; }))
+  const auto seesAll = [](const Camera& c) {
+    return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity;
+  };
+  if (std::any_of(home.lightFor.begin(), home.lightFor.end(), seesAll) ||
+      !std::all_of(home.cameras.begin(), home.cameras.end(),
+                   [&](const Camera& c) { return isAmong(home.lightFor, c); }))
     return std::nullopt;
-  return home::withinReach(RayScene(home.opened.scene), home.cameras);
+  return home::withinReach(RayScene(home.opened.scene), home.lightFor);
 }
 
 // Of the camera's view: what a first picture is judged by.
@@ -289,18 +313,32 @@ void applyPhoto(const RenderOptions& o, const PhotoWish& photo, RenderPlan& plan
 }
 
 // Those asked for, each once; the default one where none is.
-Result<std::vector<Camera>> camerasOf(const RenderOptions& o, const Scene& scene) {
-  if (o.allCameras() &&
+Result<std::vector<Camera>> camerasOf(const std::vector<std::string>& names, const Scene& scene) {
+  if (meansAll(names) &&
       std::none_of(scene.cameras.begin(), scene.cameras.end(), [](const Camera& c) { return c.name == kAllCameras; })) {
     return scene.cameras.empty() ? std::vector<Camera>{defaultCamera(scene)} : scene.cameras;
   }
   std::vector<Camera> out;
-  for (const std::string& name : o.cameras.empty() ? std::vector<std::string>{""} : o.cameras) {
+  for (const std::string& name : names.empty() ? std::vector<std::string>{""} : names) {
     const Result<Camera> camera = findCamera(scene, name);
     if (!camera) return Error{camera.error()};
-    if (std::none_of(out.begin(), out.end(),
-                     [&](const Camera& c) { return c.name == camera.value().name && seeTheSame(c, camera.value()); }))
-      out.push_back(camera.value());
+    if (!isAmong(out, camera.value())) out.push_back(camera.value());
+  }
+  return out;
+}
+
+// As `wish` says, of the cameras with these names.
+Result<std::vector<Viewed>> viewsOf(const std::vector<std::string>& names, const home::OpenedHome& opened,
+                                    const RenderSettings& settings, const ViewWish& wish) {
+  const Scene& scene = opened.scene;
+  const Result<std::vector<Camera>> cameras = camerasOf(names, scene);
+  if (!cameras) return Error{cameras.error()};
+  std::vector<Viewed> out;
+  for (const Camera& camera : cameras.value()) {
+    const Result<Viewed> viewed = makeView(scene, scene.rooms, camera, !names.empty() || opened.placed(),
+                                           {settings.width, settings.height}, wish);
+    if (!viewed) return Error{viewed.error()};
+    out.push_back(viewed.value());
   }
   return out;
 }
@@ -308,22 +346,25 @@ Result<std::vector<Camera>> camerasOf(const RenderOptions& o, const Scene& scene
 Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
   Result<home::OpenedHome> opened = home::openHome(plan.open);
   if (!opened) return Error{opened.error()};
-  HomeInView out{std::move(opened.value()), {}};
-  const Scene& scene = out.opened.scene;
-  const Result<std::vector<Camera>> cameras = camerasOf(o, scene);
-  if (!cameras) return Error{fmt::format("{}: {}", o.scene, cameras.error())};
+  HomeInView out{std::move(opened.value()), {}, {}};
   if (out.opened.photo) applyPhoto(o, *out.opened.photo, plan);
-  Viewed last;
-  for (const Camera& camera : cameras.value()) {
-    const Result<Viewed> viewed = makeView(scene, scene.rooms, camera, !o.cameras.empty() || out.opened.placed(),
-                                           {plan.settings.width, plan.settings.height}, plan.view);
-    if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};
-    last = viewed.value();
-    out.cameras.push_back(last.camera);
+  // A picture that is taken from elsewhere than where a camera stands leaves these as they are placed.
+  const ViewWish& wish = plan.view;
+  const bool isElsewhere = wish.eye || !wish.room.empty() || wish.view == View::Top || wish.view == View::Plan;
+  Result<std::vector<Viewed>> views = std::vector<Viewed>();
+  if (!o.light.lightFor.empty()) {
+    views = viewsOf(o.light.lightFor, out.opened, plan.settings, isElsewhere ? ViewWish() : wish);
+    if (!views) return Error{fmt::format("{}: --light-for: {}", o.scene, views.error())};
+    for (const Viewed& v : views.value()) out.lightFor.push_back(v.camera);
   }
   plan.settings.width = last.width, plan.settings.height = last.height;  // the same for all
   if (const Status s = checkSettings(plan.settings); !s) return Error{s.error()};
   return out;
+  views = viewsOf(o.cameras, out.opened, plan.settings, wish);
+  if (!views) return Error{fmt::format("{}: {}", o.scene, views.error())};
+  for (const Viewed& v : views.value()) out.cameras.push_back(v.camera);
+  if (o.light.lightFor.empty()) out.lightFor = out.cameras;
+  const Viewed& last = views.value().back();
 }
 
 // Its name, or its number in the scene.
@@ -419,7 +460,8 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   if (!shots) return failed(shots.error());
   if (const Status s = writeAddedLight(o, home.value().opened); !s) return failed(s.error());
   if (!o.quiet) printOpened(o, home.value().opened);
-  if (shots.value().size() > 1) tellSharedLight(o, home.value().opened, home.value().cameras.front(), display);
+  const std::vector<Camera>& lightFor = home.value().lightFor;
+  if (lightFor.size() > 1) tellSharedLight(o, home.value().opened, lightFor.front(), display);
   bool any = false;
   const auto noPicture = [&] {
     return failed(any ? "interrupted; pictures of the other cameras were not begun"
@@ -432,10 +474,10 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
       loading.run("reach", [&](const Progress&) { return partInReach(home.value(), plan); });
   if (part)
     display.line(fmt::format("of {} triangles those are used whose light comes to the camera{}: {}",
-                             scene.triangleCount(), shots.value().size() > 1 ? "s" : "", part->triangleCount()));
-  std::vector<Camera> cameras;
-  for (const Shot& shot : shots.value()) cameras.push_back(shot.camera);
-  Result<Renderer> renderer = Renderer::of(part ? *part : scene, plan.settings, std::move(cameras));
+                             scene.triangleCount(), lightFor.size() > 1 ? "s" : "", part->triangleCount()));
+  const bool ranksLight = findTechnique(plan.settings.technique)->sharesLight;
+  Result<Renderer> renderer =
+      Renderer::of(part ? *part : scene, plan.settings, ranksLight ? lightFor : home.value().cameras, plan.store);
   if (!renderer) return failed(renderer.error());
   const RenderTask task{o, plan, scene};
   for (const Shot& shot : shots.value()) {
@@ -482,6 +524,7 @@ Registered addRender(CLI::App& program) {
   addViewOptions(*app, o->view);
   app->add_option("--size", o->size,
                   "Width and height in pixels, for example 960x540; views other than camera choose their own");
+  addLightOptions(*app, o->light);
   app->add_option("--technique", o->technique, listed("How light is computed:", describedTechniques()));
   app->add_option("--quality", o->quality,
                   listed("How much is done for a picture, if nothing else says so:", qualities()));

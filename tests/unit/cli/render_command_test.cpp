@@ -160,6 +160,49 @@ TEST_F(RenderCommand, severalCamerasMakeAPictureEach) {
   EXPECT_TRUE(std::filesystem::exists(path("a_Front.png")) && std::filesystem::exists(path("a_Back.png")));
 }
 
+TEST_F(RenderCommand, processesShareLightAndTakeThePicturesOfOne) {
+  const auto stagesIn = [&](const std::string& stats) {
+    std::vector<std::string> names;
+    const Json json = Json::parse(readFile(path(stats)));
+    for (const Json& s : json["stages"]) names.push_back(s["name"]);
+    return names;
+  };
+  const auto has = [](const std::vector<std::string>& names, const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const auto shared = [&](const char* camera, const char* name) {
+    const ProgramRun run = render({"-o", path(name), "--camera", camera, "--light-for", "all", "--light-cache",
+                                   path("lights"), "--light-cache-size", "50MB", "--stats", path("s.json")});
+    EXPECT_EQ(run.exitStatus, 0) << run.err;
+    return run.err;
+  };
+  ASSERT_EQ(render({"-o", path("one.exr"), "--camera", "all"}).exitStatus, 0);
+  shared("Front", "f.exr");
+  EXPECT_TRUE(has(stagesIn("s.json"), "illuminate"));
+  shared("Back", "b.exr");
+  EXPECT_TRUE(has(stagesIn("s.json"), "light read"));
+  EXPECT_FALSE(has(stagesIn("s.json"), "voxelise") || has(stagesIn("s.json"), "illuminate"));
+  EXPECT_TRUE(picture("f.exr").pixels == picture("one_Front.exr").pixels);
+  EXPECT_TRUE(picture("b.exr").pixels == picture("one_Back.exr").pixels);
+
+  const std::filesystem::path file = std::filesystem::directory_iterator(folder_ / "lights")->path();
+  writeFile(file, readFile(file).substr(1));
+  const std::string err = shared("Back", "c.exr");
+  EXPECT_NE(err.find("warning: " + file.string() + ": is damaged"), std::string::npos) << err;
+  EXPECT_TRUE(picture("c.exr").pixels == picture("b.exr").pixels);
+  EXPECT_EQ(shared("Back", "c.exr").find("warning"), std::string::npos);
+
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--technique", "path", "--samples", "1"}, {"--time-limit", "0.2"}}) {
+    std::vector<std::string> arguments = {"-o", path("d.exr"), "--light-cache", path("none")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = render(arguments);
+    EXPECT_EQ(run.exitStatus, 0);
+    EXPECT_NE(run.err.find("warning: --light-cache: is"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(path("none")));
+  }
+}
+
 TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
   const auto meanLuminance = [&](const std::string& lamps, const std::string& name) {
     writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
@@ -236,6 +279,9 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--quality", "perfect"}, "draft, good, best"},
       {{"render", scene_, "-o", a, "--camera", "Side"}, "'Front', 'Back'"},
       {{"render", scene_, "-o", a, "--camera", "7"}, "'Front', 'Back'"},
+      {{"render", scene_, "-o", a, "--light-for", "Side"}, "--light-for: "},
+      {{"render", scene_, "-o", a, "--light-cache-size", "1GB"}, "--light-cache-size: goes with --light-cache DIR"},
+      {{"render", scene_, "-o", a, "--light-cache", path("lights"), "--light-cache-size", "much"}, "such as 2GB"},
       {{"render", scene_, "-o", a, "--samples", "-1"}, "samples"},
       {{"render", scene_, "-o", a, "--samples", "many"}, "samples"},
       {{"render", scene_, "-o", a, "--samples", ""}, "empty"},
