@@ -273,14 +273,14 @@ struct HomeInView {
   std::vector<Camera> lightFor;  // that light is found for
 };
 
-// Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and
-// plans see all rooms. Who takes a picture from elsewhere than light is found for needs the whole.
-std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
 bool isAmong(const std::vector<Camera>& cameras, const Camera& camera) {
   return std::any_of(cameras.begin(), cameras.end(),
                      [&](const Camera& c) { return c.name == camera.name && seeTheSame(c, camera); });
 }
 
+// Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and
+// plans see all rooms. Who takes a picture from elsewhere than light is found for needs the whole.
+std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
   if (findTechnique(plan.settings.technique)->role == TechniqueRole::Judge || plan.settings.layers) return std::nullopt;
   const auto seesAll = [](const Camera& c) {
     return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity;
@@ -357,14 +357,14 @@ Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
     if (!views) return Error{fmt::format("{}: --light-for: {}", o.scene, views.error())};
     for (const Viewed& v : views.value()) out.lightFor.push_back(v.camera);
   }
-  plan.settings.width = last.width, plan.settings.height = last.height;  // the same for all
-  if (const Status s = checkSettings(plan.settings); !s) return Error{s.error()};
-  return out;
   views = viewsOf(o.cameras, out.opened, plan.settings, wish);
   if (!views) return Error{fmt::format("{}: {}", o.scene, views.error())};
   for (const Viewed& v : views.value()) out.cameras.push_back(v.camera);
   if (o.light.lightFor.empty()) out.lightFor = out.cameras;
   const Viewed& last = views.value().back();
+  plan.settings.width = last.width, plan.settings.height = last.height;  // the same for all
+  if (const Status s = checkSettings(plan.settings); !s) return Error{s.error()};
+  return out;
 }
 
 // Its name, or its number in the scene.
@@ -521,10 +521,10 @@ Registered addRender(CLI::App& program) {
                   "number from 0; repeated, or all: a picture of each, named after it, from light that is found once")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  addLightOptions(*app, o->light);
   addViewOptions(*app, o->view);
   app->add_option("--size", o->size,
                   "Width and height in pixels, for example 960x540; views other than camera choose their own");
-  addLightOptions(*app, o->light);
   app->add_option("--technique", o->technique, listed("How light is computed:", describedTechniques()));
   app->add_option("--quality", o->quality,
                   listed("How much is done for a picture, if nothing else says so:", qualities()));

@@ -125,10 +125,10 @@ struct LitUse {
                                          // scene at once
   bool stills = false;  // LitScene::still will be called, for `cameras` alone where there are any; not with `changes`
   double seconds = std::numeric_limits<double>::infinity();  // for stills: about half of it for light
+  const LightStore* store = nullptr;  // for stills that have no limit: where light of technique.sharesLight is shared
 };
 
 // Refers to the scene, which must be validated and stay where it is. Errors: an unknown technique, settings out of
-  const LightStore* store = nullptr;  // for stills that have no limit: where light of technique.sharesLight is shared
 // range, layers that the technique or the scene does not have. Null if cancelled.
 Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages,
                                              const LitUse& use = {});

@@ -153,6 +153,7 @@ const Technique kHybridTechnique{
     .keepsWhatStands = true,
     .hasSnapshots = true,
     .fillsTimeLimit = true,
+    .sharesLight = true,
     .refinesToTruth = true,
     .meters = {.isValidated = true,
                .places = 181,
@@ -162,5 +163,4 @@ const Technique kHybridTechnique{
     .light = light,
 };
 
-    .sharesLight = true,
 }  // namespace roomlight
