@@ -34,7 +34,7 @@ struct RenderOptions : SettingsOptions, SceneOptions {
   std::optional<float> voxelSizeM;
   bool layers = false;
   std::optional<std::string> layerGroups;
-  bool quiet = false;
+  bool quiet = false, reproducible = false;
   ViewOptions view;
   LightOptions light;
 };
@@ -145,8 +145,10 @@ Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const
                            const Rendered& rendered, float ev100, const White& white) {
   auto times = nlohmann::ordered_json::object();
   for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
+  RenderSettings settings = plan.settings;
+  if (o.reproducible) settings.threads = 0;  // a picture is the same with any number
   Metadata metadata = {{"roomlight.version", version()},
-                       {"roomlight.settings", settingsToJson(plan.settings)},
+                       {"roomlight.settings", settingsToJson(settings)},
                        {"roomlight.seed", std::to_string(plan.settings.seed)},
                        {"roomlight.timesMs", dump(times, -1)},
                        {"roomlight.scene", o.scene},
@@ -162,6 +164,7 @@ Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const
   if (camera.projection == Projection::Orthographic)
     metadata["roomlight.metresPerPixel"] =
         fmt::format("{}", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel());
+  if (o.reproducible) metadata.erase("roomlight.timesMs");
   if (camera.cutHeightM < kInfinity) metadata["roomlight.cutHeightM"] = fmt::format("{}", camera.cutHeightM);
   return metadata;
 }
@@ -551,6 +554,8 @@ Registered addRender(CLI::App& program) {
       ->capture_default_str();
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
   app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");
+  app->add_flag("--reproducible", o->reproducible,
+                "Leave times and the number of threads out of the files: the same command writes the same bytes");
   app->add_flag("--quiet", o->quiet, "Only errors");
   app->footer(
       "Ctrl-C ends the work and keeps the best picture so far, if there is one (exit status 130); a second one ends at "

@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "base/image_io.h"
+#include "base/parallel.h"
 #include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
@@ -17,12 +18,13 @@
 #include "import/walk_file.h"
 #include "output_files.h"
 #include "picture_options.h"
+#include "walk_stills.h"
 
 namespace roomlight::cli {
 namespace {
 
 struct WalkOptions : SettingsOptions, SceneOptions {
-  std::string walk, output, stats;
+  std::string walk, output, stats, stills;
   DisplayOptions display;
   int frames = 0;
   bool inARow = false;
@@ -36,7 +38,7 @@ struct WalkPlan {
 };
 
 Result<RenderSettings> frameSettingsOf(const WalkOptions& o) {
-  Result<RenderSettings> settings = readSettings(o, frameSettings({}));
+  Result<RenderSettings> settings = readSettings(o, o.stills.empty() ? frameSettings({}) : RenderSettings());
   if (!settings) return Error{settings.error()};
   const RenderSettings& s = settings.value();
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
@@ -55,6 +57,8 @@ Result<std::string> frameFile(const std::string& pattern, int number) {
 }
 
 Status checkFiles(const WalkOptions& o) {
+  if (!o.stills.empty() && o.output.empty()) return Error{"--stills: add -o frame_%03d.png"};
+  if (!o.stills.empty() && !o.stats.empty()) return Error{"--stats: is of a walk; leave it out with --stills"};
   if (!o.output.empty()) {
     const Result<std::string> first = frameFile(o.output, 0);
     if (!first) return Error{first.error()};
@@ -82,11 +86,25 @@ class FrameWriter {
       ev100_ = ev100Of(display_, frame.image);
       white_ = whiteOf(display_, lightColour(frame.rays, frame.camera, frame.image));
     }
-    const Image shown = displayed(frame.image, display_, white_, *ev100_);
-    return extension == ".jpg" ? writeJpeg(file.value(), shown, SIZE_MAX) : writePng(file.value(), shown, {});
+    return write(file.value(), frame.image);
+  }
+
+  // Exposure and white of all frames.
+  void exposeBy(const Rendered& picture) {
+    ev100_ = ev100Of(display_, picture.image), white_ = whiteOf(display_, picture.lightColour);
+  }
+  Status still(int number, const Image& image) const {
+    const Result<std::string> file = frameFile(pattern_, number);
+    if (!file) return Error{file.error()};
+    return lowerExtension(file.value()) == ".exr" ? writeExr(file.value(), image, {}) : write(file.value(), image);
   }
 
  private:
+  Status write(const std::string& file, const Image& image) const {
+    const Image shown = displayed(image, display_, white_, *ev100_);
+    return lowerExtension(file) == ".jpg" ? writeJpeg(file, shown, SIZE_MAX) : writePng(file, shown, {});
+  }
+
   const std::string pattern_;
   const Display display_;
   std::optional<float> ev100_;
@@ -124,6 +142,27 @@ void printResult(const WalkFrames& result) {
     fmt::print("  {:<17} {:.1f} ms, {:.1f} ms of processor time a frame\n", s.name, s.timeMs / n, s.cpuMs / n);
 }
 
+int workStills(const WalkOptions& o, const WalkPlan& plan, Scene& scene, const Walk& walk,
+               const RenderProgress& progress) {
+  const Result<FrameRange> range = readFrameRange(o.stills, walk.frameCount());
+  if (!range) return failed(range.error());
+  FrameWriter writer(o.output, plan.display);
+  if (lowerExtension(o.output) != ".exr") {
+    const Result<Rendered> first = exposureFrame(scene, walk, plan.settings);
+    if (!first) return failed(first.error());
+    writer.exposeBy(first.value());
+  }
+  std::string unwritten;
+  const Result<bool> complete = renderStills(scene, walk, range.value(), plan.settings, progress,
+                                             [&](int number, const Camera&, const Rendered& picture) {
+                                               const Status s = writer.still(number, picture.image);
+                                               if (!s) unwritten = s.error();
+                                               return s;
+                                             });
+  if (!complete) return failed(complete.error(), unwritten.empty() ? kBadInput : kFailed);
+  return complete.value() ? kOk : failed("interrupted; frames are missing", kInterrupted);
+}
+
 int workWalk(const WalkOptions& o, const WalkPlan& plan) {
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
@@ -143,6 +182,7 @@ int workWalk(const WalkOptions& o, const WalkPlan& plan) {
     }
   }
   if (!o.quiet) printOpened(o, home.value());
+  if (!o.stills.empty()) return workStills(o, plan, scene, walk.value(), progress);
   std::string unwritten;
   TakeFrame take;
   if (!o.output.empty()) {
@@ -173,7 +213,11 @@ int runWalk(const WalkOptions& o) {
   if (const Status s = checkFiles(o); !s) return failed(s.error());
   Result<home::OpenWish> open = readSceneOptions(o);
   if (!open) return failed(open.error());
-  return workWalk(o, {settings.value(), std::move(display.value()), std::move(open.value())});
+  const WalkPlan plan{settings.value(), std::move(display.value()), std::move(open.value())};
+  if (o.stills.empty()) return workWalk(o, plan);
+  int code = kFailed;
+  withThreads(plan.settings.threads, [&] { code = workWalk(o, plan); });
+  return code;
 }
 
 }  // namespace
@@ -192,6 +236,8 @@ Registered addWalk(CLI::App& program) {
   app->add_option("--samples", o->samples, "Samples per pixel of a frame, by default 1; 0: those of a picture");
   app->add_option("--frames", o->frames, "Only so many frames, spread evenly; 0: all")->check(CLI::Range(0, 1000000));
   app->add_flag("--in-a-row", o->inARow, "Not spread: the first --frames of them");
+  app->add_option("--stills", o->stills,
+                  "These frames, such as 17 or 10-19 from 0, as pictures of which none depends on another");
   app->add_option("-o,--output", o->output, "Writes the frames: FOLDER/frame_%03d.png, .jpg or .exr");
   app->add_option("--stats", o->stats, "Write the times of every frame to this JSON file");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same frames");

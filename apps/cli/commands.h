@@ -32,6 +32,14 @@ Registered addStudy(CLI::App& program);
 Registered addOptimise(CLI::App& program);
 Registered addView(CLI::App& program);
 Registered addBake(CLI::App& program);
+Registered addBatch(CLI::App& program);
+
+// All of them, with what they have in common: --memory, and no empty values.
+std::vector<Registered> addCommands(CLI::App& program);
+
+// What would be said of these words after `roomlight`: unknown commands and options, values that cannot be read. Runs
+// nothing.
+Status checkCommandLine(const std::vector<std::string>& words);
 
 // Adds --memory, which takes effect as it is read: allocations beyond it fail, and the command ends with one line. Code
 // and files that are mapped into memory do not count.

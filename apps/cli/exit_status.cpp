@@ -11,9 +11,13 @@ namespace roomlight::cli {
 namespace {
 
 std::atomic<bool> gInterrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+std::atomic<int> gSignal{0};  // the first
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "set from a signal handler");
 
-void onInterrupt(int) {
+void onInterrupt(int number) {
+  int none = 0;
+  gSignal.compare_exchange_strong(none, number);
   if (gInterrupted.exchange(true)) _exit(kInterrupted);
 }
 
@@ -35,6 +39,11 @@ const std::atomic<bool>& interrupted() {
   }();
   static_cast<void>(installed);
   return gInterrupted;
+}
+
+int interruptStatus() {
+  constexpr int kSignals = 128;
+  return gSignal == 0 ? kInterrupted : kSignals + gSignal;
 }
 
 }  // namespace roomlight::cli

@@ -15,5 +15,8 @@ constexpr int kInterrupted = 130;
 // at once. Becomes true at the first SIGINT, SIGTERM or SIGHUP (unless that is ignored, as by nohup). Installs the
 // handler on the first call.
 const std::atomic<bool>& interrupted();
+// 128 and the number of the signal that came first, as shells have it: 130 for Ctrl-C, 143 for SIGTERM; kInterrupted
+// where none has come.
+int interruptStatus();
 
 }  // namespace roomlight::cli

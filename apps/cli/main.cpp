@@ -23,20 +23,7 @@ int runProgram(int argc, char** argv) {
       "  roomlight compare reference.exr flat.exr\n"
       "  roomlight info flat.glb\n"
       "'roomlight COMMAND --help' explains a command.");
-  const std::vector<roomlight::cli::Registered> commands = {
-      roomlight::cli::addRender(program),   roomlight::cli::addView(program),    roomlight::cli::addWalk(program),
-      roomlight::cli::addBake(program),     roomlight::cli::addMix(program),     roomlight::cli::addMeasure(program),
-      roomlight::cli::addValidate(program), roomlight::cli::addStudy(program),   roomlight::cli::addOptimise(program),
-      roomlight::cli::addCompare(program),  roomlight::cli::addDevelop(program), roomlight::cli::addInfo(program)};
-  // An empty word, as an unset variable of a shell leaves it, would pass for "not given".
-  for (const roomlight::cli::Registered& command : commands) {
-    roomlight::cli::addMemoryLimit(*command.app);
-    for (CLI::Option* option : command.app->get_options()) {
-      if (option->get_items_expected_max() > 0)
-        option->check([](const std::string& value) { return std::string(value.empty() ? "has an empty value" : ""); },
-                      "");
-    }
-  }
+  const std::vector<roomlight::cli::Registered> commands = roomlight::cli::addCommands(program);
   if (const roomlight::Status s = roomlight::cli::checkWords(program, {argv + 1, argv + argc}); !s) {
     roomlight::cli::printError(s.error());
     return roomlight::cli::kBadInput;

@@ -25,9 +25,14 @@ std::string howToSee(const std::string& file) {
   return fmt::format("to see it: roomlight render {0} -o picture.png, or roomlight view {0}", file);
 }
 
-Status checkCommand(const CLI::App& program, const std::string& word) {
+std::vector<std::string> commandsOf(const CLI::App& app) {
   std::vector<std::string> commands;
-  for (const CLI::App* command : program.get_subcommands(nullptr)) commands.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands(nullptr)) commands.push_back(command->get_name());
+  return commands;
+}
+
+Status checkCommand(const CLI::App& program, const std::string& word) {
+  const std::vector<std::string> commands = commandsOf(program);
   if (std::find(commands.begin(), commands.end(), word) != commands.end()) return Ok{};
   std::error_code ignored;
   if (std::filesystem::exists(word, ignored)) return Error{howToSee(word)};
@@ -51,6 +56,15 @@ Status checkOption(const CLI::App& command, const std::string& word) {
       nearest.empty() ? fmt::format("see roomlight {} --help", of) : fmt::format("did you mean {}?", nearest))};
 }
 
+// The command of a command, such as plan in `batch plan`.
+Status checkSubcommand(const CLI::App& command, const std::string& word) {
+  const std::vector<std::string> commands = commandsOf(command);
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return Ok{};
+  const std::string nearest = nearestWord(word, commands);
+  return Error{fmt::format("unknown command '{} {}'; {}", command.get_name(), word,
+                           nearest.empty() ? "there are " + joined(commands) : "did you mean " + nearest + "?")};
+}
+
 }  // namespace
 
 Status checkWords(const CLI::App& program, const std::vector<std::string>& words) {
@@ -58,10 +72,15 @@ Status checkWords(const CLI::App& program, const std::vector<std::string>& words
     return Error{"say what to do: a command and a file, such as 'roomlight view home.glb'; see roomlight --help"};
   if (words.front().starts_with('-')) return Ok{};  // of the program itself
   if (const Status s = checkCommand(program, words.front()); !s) return s;
-  const CLI::App& command = *program.get_subcommand(words.front());
-  for (size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+  const CLI::App* command = program.get_subcommand(words.front());
+  size_t first = 1;
+  if (!commandsOf(*command).empty() && words.size() > 1 && !words[1].starts_with('-')) {
+    if (const Status s = checkSubcommand(*command, words[1]); !s) return s;
+    command = command->get_subcommand(words[1]), first = 2;
+  }
+  for (size_t i = first; i < words.size() && words[i] != "--"; ++i) {
     if (!words[i].starts_with("--")) continue;
-    if (const Status s = checkOption(command, words[i]); !s) return s;
+    if (const Status s = checkOption(*command, words[i]); !s) return s;
   }
   return Ok{};
 }

@@ -1,0 +1,226 @@
+#include "batch/claim.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/write_file.h"
+#include "batch/durable.h"
+
+namespace roomlight::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string firstLine(const char* file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+// 0 where there is no such process. Field 22 of /proc/N/stat; the second is a name in parentheses.
+uint64_t startOf(pid_t process) {
+  const std::string line = firstLine(fmt::format("/proc/{}/stat", process).c_str());
+  const size_t name = line.rfind(')');
+  if (name == std::string::npos) return 0;
+  size_t at = name + 1;
+  for (int field = 2; field < 21 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
+  return at == std::string::npos ? 0 : std::strtoull(line.c_str() + at, nullptr, 10);
+}
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+std::string jsonOf(const Owner& o) {
+  const Json json = {{"host", o.host}, {"machine", o.machine},   {"process", o.process}, {"started", o.started},
+                     {"job", o.job},   {"restarts", o.restarts}, {"token", o.token}};
+  return json.dump() + "\n";
+}
+
+Owner ownerOf(const std::string& text) {
+  Owner o;
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return o;  // half written, or not ours: told by its age
+  o.host = json.value("host", ""), o.machine = json.value("machine", ""), o.process = json.value("process", 0);
+  o.started = json.value("started", uint64_t{0}), o.job = json.value("job", ""), o.token = json.value("token", "");
+  o.restarts = json.value("restarts", 0);
+  return o;
+}
+
+double secondsOf(const timespec& t) { return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec); }
+
+constexpr double kSweptS = 3600;  // what is left of claims that were being made
+
+double steadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool isTask(const std::string& name) {
+  return name.size() == 16 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+}  // namespace
+
+Owner thisOwner() {
+  Owner o;
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  std::error_code code;
+  o.host = host;
+  o.machine = firstLine("/proc/sys/kernel/random/boot_id") + " " + fs::read_symlink("/proc/self/ns/pid", code).string();
+  o.process = getpid(), o.started = startOf(getpid()), o.token = processToken();
+  if (const std::string job = variable("SLURM_JOB_ID"); !job.empty()) {
+    const std::string array = variable("SLURM_ARRAY_JOB_ID");
+    o.job = array.empty() ? job : array + "_" + variable("SLURM_ARRAY_TASK_ID");
+    o.restarts = std::atoi(variable("SLURM_RESTART_COUNT").c_str());
+  }
+  return o;
+}
+
+Claims::Claims(const Folder& folder, double staleS, Owner self)
+    : folder_(folder), staleS_(staleS), self_(std::move(self)), lastBeatS_(steadySeconds()) {}
+
+Claims::~Claims() {
+  for (const std::string& id : std::set<std::string>(held_)) release(id);
+}
+
+// The file server's: clocks of machines differ.
+double Claims::serverTime() const {
+  const fs::path probe = folder_.claims() / (".now-" + self_.token);
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  struct stat about {};
+  double now = 0;
+  if (file >= 0 && futimens(file, nullptr) == 0 && fstat(file, &about) == 0) now = secondsOf(about.st_mtim);
+  if (file >= 0) close(file), unlink(probe.c_str());
+  if (now == 0) now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return now;
+}
+
+bool Claims::isStale(const Claim& c) const {
+  const Owner& o = c.owner;
+  if (o.host == self_.host && o.machine == self_.machine && o.process > 0) return startOf(o.process) != o.started;
+  // Slurm has started the same job again: its first run is over.
+  if (!o.job.empty() && o.job == self_.job && o.restarts < self_.restarts) return true;
+  return c.ageS > staleS_;
+}
+
+std::optional<Claim> Claims::read(const std::string& id) const {
+  struct stat about {};
+  if (stat((folder_.claims() / id).c_str(), &about) != 0) return std::nullopt;
+  Claim claim{id, ownerOf(textOf(folder_.claims() / id)), 0, false};
+  const bool isHere = claim.owner.host == self_.host && claim.owner.machine == self_.machine;
+  if (!isHere) claim.ageS = serverTime() - secondsOf(about.st_mtim);
+  claim.isStale = isStale(claim);
+  return claim;
+}
+
+// As open(O_EXCL) is not atomic on old NFS. An answer that was lost is told by the number of links.
+Result<bool> Claims::link(const std::string& id) const {
+  const fs::path part = folder_.claims() / fmt::format(".{}-{}", id, self_.token);
+  std::ofstream out(part, std::ios::binary);
+  out << jsonOf(self_);
+  out.close();
+  const int writeError = errno;
+  if (!out) {
+    unlink(part.c_str());
+    return cannotWrite(part, writeError);
+  }
+  const bool linked = ::link(part.c_str(), (folder_.claims() / id).c_str()) == 0;
+  const int reason = errno;
+  struct stat about {};
+  const bool mine = linked || (stat(part.c_str(), &about) == 0 && about.st_nlink == 2);
+  unlink(part.c_str());
+  if (mine) return true;
+  if (reason == EEXIST) return false;
+  return cannotWrite(folder_.claims() / id, reason);
+}
+
+bool Claims::takeOver(const Claim& stale) const {
+  const fs::path file = folder_.claims() / stale.id;
+  const fs::path aside = folder_.claims() / fmt::format(".{}-stale-{}", stale.id, self_.token);
+  std::error_code code;
+  fs::rename(file, aside, code);
+  if (code) return false;  // another was faster
+  const Owner taken = ownerOf(textOf(aside));
+  const bool isIt = taken.token == stale.owner.token;
+  if (!isIt) ::link(aside.c_str(), file.c_str());  // a new one in the meantime: back to where it was
+  fs::remove(aside, code);
+  if (isIt && !taken.token.empty())
+    fs::remove_all(folder_.path() / "out" / stale.id.substr(0, 2) / fmt::format("{}.{}.tmp", stale.id, taken.token),
+                   code);
+  return isIt;
+}
+
+Result<bool> Claims::take(const std::string& id) {
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    Result<bool> mine = link(id);
+    if (!mine) return mine;
+    if (mine.value()) {
+      held_.insert(id);
+      return true;
+    }
+    const std::optional<Claim> other = read(id);
+    if (other && !other->isStale) return false;
+    if (other && !takeOver(*other)) return false;
+  }
+  return false;
+}
+
+void Claims::release(const std::string& id) {
+  held_.erase(id);
+  const fs::path file = folder_.claims() / id;
+  if (ownerOf(textOf(file)).token == self_.token) unlink(file.c_str());
+}
+
+void Claims::beat() {
+  if (steadySeconds() - lastBeatS_ < kBeatS) return;
+  lastBeatS_ = steadySeconds();
+  for (const std::string& id : held_) utimensat(AT_FDCWD, (folder_.claims() / id).c_str(), nullptr, 0);
+}
+
+void Claims::sweep() const {
+  std::error_code code;
+  const double now = serverTime();
+  std::vector<fs::path> old;
+  for (fs::directory_iterator it(folder_.claims(), code), end; !code && it != end; it.increment(code)) {
+    struct stat about {};
+    if (it->path().filename().string().starts_with('.') && stat(it->path().c_str(), &about) == 0 &&
+        now - secondsOf(about.st_mtim) > kSweptS)
+      old.push_back(it->path());
+  }
+  for (const fs::path& file : old) unlink(file.c_str());
+  for (const Claim& claim : all()) {
+    if (claim.isStale && fs::exists(folder_.done(claim.id), code)) unlink((folder_.claims() / claim.id).c_str());
+  }
+}
+
+std::vector<Claim> Claims::all() const {
+  std::vector<Claim> out;
+  std::error_code code;
+  for (fs::directory_iterator it(folder_.claims(), code), end; !code && it != end; it.increment(code)) {
+    const std::string name = it->path().filename().string();
+    if (!isTask(name)) continue;
+    if (const std::optional<Claim> claim = read(name)) out.push_back(*claim);
+  }
+  return out;
+}
+
+size_t Claims::liveCount() const {
+  size_t count = 0;
+  for (const Claim& claim : all()) count += !claim.isStale;
+  return count;
+}
+
+}  // namespace roomlight::batch
