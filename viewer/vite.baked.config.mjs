@@ -1,38 +1,4 @@
 import { defineConfig } from "vite";
+import { onePage } from "./vite.one_file.mjs";
 
-// Puts the script and the style into the page: it is one file that opens without a server.
-const inOneFile = {
-  name: "in-one-file",
-  enforce: "post",
-  generateBundle(_, bundle) {
-    const page = bundle["index.html"];
-    const take = name => {
-      const file = bundle[name.replace(/^\.\//, "")];
-      delete bundle[file.fileName];
-      return file.code ?? file.source;
-    };
-    page.source = page.source
-      .replace(/<link rel="stylesheet"[^>]* href="([^"]+)">/, (_, name) => `<style>${take(name)}</style>`)
-      .replace(/<script type="module"[^>]* src="([^"]+)"><\/script>/, (_, name) => {
-        const code = take(name).replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
-        return `<script type="module">${code}</script>`;
-      });
-    const left = Object.keys(bundle).filter(name => name !== "index.html");
-    if (left.length > 0) this.error(`files beside the page: ${left.join(", ")}`);
-  },
-};
-
-export default defineConfig({
-  root: "baked",
-  base: "./",
-  publicDir: false,
-  plugins: [inOneFile],
-  build: {
-    outDir: "../dist-baked",
-    emptyOutDir: true,
-    target: "es2022",
-    modulePreload: { polyfill: false },
-    reportCompressedSize: false,
-    chunkSizeWarningLimit: 2000,
-  },
-});
+export default defineConfig(onePage("baked", "dist-baked"));

@@ -14,6 +14,7 @@
 #include "import/import.h"
 #include "optimise/run.h"
 #include "output_files.h"
+#include "started_programs.h"
 
 namespace roomlight::cli {
 namespace {
@@ -92,7 +93,7 @@ int workOptimise(const OptimiseOptions& o, const optimise::RunWish& wish) {
   if (run.report().front.size() == 0) return stopped();
   if (const Status s = run.propose(); !s) return failed(s.error(), kFailed);
   const Status certified = run.certifyAll(stages);
-  if (const Status s = run.write(); !s) return failed(s.error(), kFailed);
+  if (const Status s = run.write(reportPlots()); !s) return failed(s.error(), kFailed);
   if (!certified) return failed(certified.error(), kFailed);
   printFront(run.report());
   display.line(fmt::format("wrote {}", (wish.folder / "index.html").string()));

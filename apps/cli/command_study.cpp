@@ -239,8 +239,10 @@ class Line {
   std::string last_;
 };
 
-Status writeStudyReports(const std::filesystem::path& folder, const StudyHeader& header, const StudyResults& results) {
-  const Result<std::string> html = studyHtml(header, results, folder / "runs");
+// `plots`: as of studyHtml().
+Status writeStudyReports(const std::filesystem::path& folder, const StudyHeader& header, const StudyResults& results,
+                         const std::string& plots) {
+  const Result<std::string> html = studyHtml(header, results, folder / "runs", plots);
   if (!html) return Error{html.error()};
   if (const Status s = writeWhole(folder / "study.html", html.value()); !s) return s;
   if (const Status s = writeWhole(folder / "study.csv", studyCsv(results)); !s) return s;
@@ -322,6 +324,7 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
   const Programs programs(store.value().folder(), settings.value().walkFrames);
   const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); },
                          [&](const StudyWalk& w) { return programs.walk(w); }};
+  const std::string plots = reportPlots();
   Status written = Ok{};
   Result<StudyResults> results = Error{""};
   {
@@ -329,7 +332,7 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
     const StudyProgress progress{[&](const std::string& now, double done, double left) { line.show(now, done, left); },
                                  &interrupted()};
     results = runStudy(plan.value(), settings.value(), store.value(), tools, progress, [&](const StudyResults& soFar) {
-      if (written) written = writeStudyReports(folder, header, soFar);
+      if (written) written = writeStudyReports(folder, header, soFar, plots);
     });
   }
   if (!results) return failed(results.error(), kFailed);

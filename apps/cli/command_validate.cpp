@@ -12,6 +12,7 @@
 #include "engine/settings.h"
 #include "exit_status.h"
 #include "output_files.h"
+#include "started_programs.h"
 #include "validate/validation.h"
 
 namespace roomlight::cli {
@@ -76,7 +77,7 @@ int runValidate(const ValidateOptions& o) {
     if (const Status s = writeWhole(o.json, validationJson(v.value())); !s) return failed(s.error(), kFailed);
   }
   if (!o.html.empty()) {
-    if (const Status s = writeWhole(o.html, validationHtml(v.value(), version())); !s)
+    if (const Status s = writeWhole(o.html, validationHtml(v.value(), version(), reportPlots())); !s)
       return failed(s.error(), kFailed);
   }
   if (!v.value().complete) return failed("interrupted; what was measured so far is above", kInterrupted);

@@ -18,6 +18,9 @@
 #include <fstream>
 #include <thread>
 
+#include "console.h"
+#include "output_files.h"
+
 extern char** environ;
 
 namespace roomlight::cli {
@@ -111,6 +114,13 @@ std::filesystem::path pageFolder(const std::string& installed, const std::string
     if (std::filesystem::exists(place / "index.html", code)) return std::filesystem::weakly_canonical(place, code);
   }
   return places[0].lexically_normal();
+}
+
+std::string reportPlots() {
+  const Result<std::string> plots = readTextFile(pageFolder("reports", "dist-reports") / "index.html");
+  if (plots) return plots.value();
+  printWarnings({plots.error() + "; the page is without plots: build them with scripts/build"});
+  return {};
 }
 
 std::filesystem::path thisProgram() {

@@ -31,6 +31,9 @@ std::filesystem::path thisProgram();
 // `built`.
 std::filesystem::path pageFolder(const std::string& installed, const std::string& built);
 
+// What draws the plots of a page (report::page); empty where it has not been built, with a warning.
+std::string reportPlots();
+
 // Runs it once more as a process of its own, with these arguments, its output thrown away. Where `cancelled` becomes
 // true it is told to end (SIGTERM) until it does, and its result is an error; where the calling thread ends, it is told
 // too (Linux). Errors: what it said on stderr last, without "roomlight: "; or that it was killed.

@@ -41,8 +41,8 @@ struct Report {
   double lookUpsASecond = 0;  // of a design's neighbours on the front, as a surrogate would (evaluate.h)
 };
 
-// One page on its own; `home` is drawn.
-Result<std::string> reportHtml(const Report& report, const Scene& home);
+// One page on its own; `home` is drawn. `plots`: as of report::page().
+Result<std::string> reportHtml(const Report& report, const Scene& home, const std::string& plots = {});
 // Every design of the front: objectives, watts, each place's luminaire and dimming.
 std::string frontCsv(const Report& report);
 // Every point of every design that was solved in full: predicted and full lux, and how certain that is.
@@ -50,7 +50,5 @@ std::string pointsCsv(const Report& report);
 // How it went, for scripts: times, methods with their traces, certificates, and the exact least watts where that can be
 // asked.
 std::string runJson(const Report& report);
-// The front as a picture with axes to choose, that can be zoomed and pointed at; a script in the page.
-std::string frontPlot(const Report& report);
 
 }  // namespace roomlight::optimise

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/image_io.h"
 #include "measure/drawings.h"
@@ -18,11 +19,7 @@ constexpr int kJpegQuality = 82;
 constexpr float kPlanMarginM = 0.4f, kPlanPx = 500;
 
 constexpr const char* kStyle = R"(
-.controls{margin:10px 0 4px;font-size:13.5px;color:var(--soft)}.controls>*{margin-right:8px}
-svg{max-width:100%;height:auto}
-#front{width:100%;display:block;touch-action:none;border:1px solid var(--line)}#front .grid{stroke:#e4e7eb}#front .point{fill:#7b8da6}#front .proposed{fill:#d9792b;stroke:#fff;stroke-width:1.5;cursor:pointer}
-#front .number{font-weight:700}#front .axis{fill:var(--soft)}
-#tip{display:none;position:absolute;background:#1d2530;color:#fff;font-size:12.5px;padding:5px 9px;border-radius:4px;max-width:360px;pointer-events:none}
+svg{max-width:100%;height:auto}details{margin:8px 0}summary{cursor:pointer}
 .row{display:flex;flex-wrap:wrap;gap:14px 22px;align-items:flex-start;margin:8px 0}.row figure{margin:0;max-width:520px}.row img{width:100%;display:block}
 figcaption{font-size:12.5px;color:var(--soft)}
 .plan .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
@@ -120,11 +117,42 @@ class Drawer {
   int number_ = 0;
 };
 
-std::string objectivesTable(const Report& r) {
+std::string unitOf(const Report& r, Objective o) {
+  return o == Objective::Cost ? r.study.catalogue.currency : infoOf(o).unit;
+}
+
+// "design" and the objectives.
+Table objectivesHead(const Report& r) {
   Table table({"design"});
   for (const Objective o : r.model.objectives)
-    table.column(fmt::format("{}<br>{}", infoOf(o).title,
-                             o == Objective::Cost ? escaped(r.study.catalogue.currency) : infoOf(o).unit));
+    table.column(fmt::format("{}<br>{}", infoOf(o).title, escaped(unitOf(r, o))));
+  return table;
+}
+
+// Every design of the front: as a plot, and as a table for who has no scripts.
+std::string front(const Report& r) {
+  nlohmann::json axes = nlohmann::json::array(), points = nlohmann::json::array();
+  for (const Objective o : r.model.objectives) axes.push_back({{"title", infoOf(o).title}, {"unit", unitOf(r, o)}});
+  Table table = objectivesHead(r);
+  for (size_t i = 0; i < r.front.size(); ++i) {
+    const auto found =
+        std::find_if(r.designs.begin(), r.designs.end(), [&](const Proposed& d) { return d.index == i; });
+    const auto number = found - r.designs.begin() + 1;
+    nlohmann::json& point = points.emplace_back();
+    std::vector<Cell>& cells = table.row({found == r.designs.end() ? "" : fmt::format("{}", number)});
+    if (found != r.designs.end()) point["design"] = number;
+    for (const double v : r.front.objectivesOf(i)) {
+      point["v"].push_back(std::stod(fmt::format("{:.5g}", v)));
+      cells.emplace_back(threeDigits(v));
+    }
+  }
+  const nlohmann::json data = {{"axes", axes}, {"points", points}};
+  return report::plot("front", "The front", data.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)) +
+         "<details><summary>All designs of the front</summary>" + table.wideHtml() + "</details>\n";
+}
+
+std::string objectivesTable(const Report& r) {
+  Table table = objectivesHead(r);
   for (const char* head : {"lamps", "installed<br>W", "LENI<br>kWh/(m² a)", "prediction off<br>at most"})
     table.column(head);
   for (size_t d = 0; d < r.designs.size(); ++d) {
@@ -250,15 +278,15 @@ std::string methods(const Report& r) {
 
 }  // namespace
 
-Result<std::string> reportHtml(const Report& r, const Scene& home) {
+Result<std::string> reportHtml(const Report& r, const Scene& home, const std::string& plots) {
   Drawer drawer(r, home);
   std::string s = fmt::format("<h1>{}</h1>\n", escaped(r.study.title));
   s += drawer.walls();
   s += fmt::format(
       "<p>{} designs that no other betters in every goal, of {} places for lamps and {} candidates. Orange: proposed "
-      "below. Wheel or buttons zoom, dragging moves.</p>\n",
+      "below. The wheel, buttons or a box that is dragged zoom.</p>\n",
       r.front.size(), r.candidates.places.size(), r.candidates.candidates.size());
-  s += frontPlot(r) + objectivesTable(r);
+  s += front(r) + objectivesTable(r);
   for (size_t i = 0; i < r.designs.size(); ++i) {
     const Proposed& d = r.designs[i];
     s += fmt::format("<h2 id=\"design{0}\">Design {0}</h2>\n<p class=soft>Open it:", i + 1);
@@ -280,7 +308,7 @@ Result<std::string> reportHtml(const Report& r, const Scene& home) {
   s += methods(r) +
        "<footer>Lux and UGR are predicted by adding up lamps' light; designs that were solved in full show both, and "
        "are judged by the full solution.</footer>\n";
-  return report::page(r.study.title, kLightMapStyle + std::string(kStyle), s);
+  return report::page(r.study.title, kLightMapStyle + std::string(kStyle), s, plots);
 }
 
 }  // namespace roomlight::optimise

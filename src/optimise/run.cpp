@@ -265,8 +265,8 @@ Status Run::certifyAll(Stages& stages) {
   return Ok{};
 }
 
-Status Run::write() const {
-  const Result<std::string> html = reportHtml(report_, home_);
+Status Run::write(const std::string& plots) const {
+  const Result<std::string> html = reportHtml(report_, home_, plots);
   if (!html) return Error{html.error()};
   const std::string texts[] = {html.value(), runJson(report_), pointsCsv(report_), frontCsv(report_)};
   for (size_t i = 0; i < std::size(texts); ++i) {

@@ -56,8 +56,8 @@ class Run {
   Status propose();
   // The study's number of designs, solved in full. Stopped, those so far.
   Status certifyAll(Stages& stages);
-  // index.html, run.json, points.csv, front.csv.
-  Status write() const;
+  // index.html, run.json, points.csv, front.csv. `plots`: as of report::page().
+  Status write(const std::string& plots = {}) const;
 
   bool stopped() const { return wish_.stop && *wish_.stop; }
   const Report& report() const { return report_; }

@@ -8,6 +8,8 @@
 namespace roomlight::report {
 namespace {
 
+constexpr const char* kPlot = "<div class=\"plot\"";  // its element's beginning
+
 constexpr const char* kStyle = R"(
 :root{--ink:#1d2530;--soft:#5d6876;--line:#dfe3e8;--paper:#fff;--good:#1a7f4b;--bad:#b3362b}
 *{box-sizing:border-box}
@@ -62,14 +64,27 @@ std::string attribute(const char* name, const std::string& text) {
   return text.empty() ? "" : fmt::format(" {}=\"{}\"", name, escaped(text));
 }
 
-std::string page(const std::string& title, const std::string& style, const std::string& body) {
-  return plainPage(title, kStyle + style, "<main>\n" + body + "</main>");
+std::string page(const std::string& title, const std::string& style, const std::string& body,
+                 const std::string& plots) {
+  return plainPage(title, kStyle + style, "<main>\n" + body + "</main>", plots);
 }
 
-std::string plainPage(const std::string& title, const std::string& style, const std::string& body) {
+std::string plainPage(const std::string& title, const std::string& style, const std::string& body,
+                      const std::string& plots) {
+  const bool hasPlots = body.find(kPlot) != std::string::npos;
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width\"><title>" +
-         escaped(title) + "</title>\n<style>" + style + "</style></head>\n<body>" + body + "</body></html>\n";
+         escaped(title) + "</title>\n<style>" + style + "</style></head>\n<body>" + body + (hasPlots ? plots : "") +
+         "</body></html>\n";
+}
+
+std::string plot(const std::string& kind, const std::string& label, const std::string& json) {
+  std::string data;  // "<" stands in its texts alone, and could end the script
+  for (const char c : json) data += c == '<' ? "\\u003c" : std::string(1, c);
+  return fmt::format(
+      "{} data-plot=\"{}\" role=\"group\"{}><p class=\"soft\">This plot needs scripts, which do not run here. Its "
+      "numbers are in tables of this page.</p><script type=\"application/json\">{}</script></div>\n",
+      kPlot, kind, attribute("aria-label", label), data);
 }
 
 std::string jpegPicture(const std::string& alt, std::span<const char> jpeg) {

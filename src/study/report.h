@@ -28,15 +28,15 @@ std::string studyCsv(const StudyResults& results);
 // Tables alone, for documents.
 std::string studyMarkdown(const StudyHeader& header, const StudyResults& results);
 // One page that needs nothing else, with curves, bars, pictures and error maps. `folder`: where the study's pictures
-// are; small JPEGs of them are written there too.
+// are; small JPEGs of them are written there too. `plots`: as of report::page().
 Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& results,
-                              const std::filesystem::path& folder);
+                              const std::filesystem::path& folder, const std::string& plots = {});
 
-// Plots of a study as inline SVG. Colour of the i-th technique, the same in every plot: "#rrggbb". The judge's is grey.
+// Colour of the i-th technique, the same in every plot: "#rrggbb". The judge's is grey.
 std::string colourOf(const std::vector<StudyCurve>& curves, size_t i);
 
-// Error beyond noise over seconds, both logarithmic; the point where each settles is filled.
-std::string curvesSvg(const StudyCase& one);
+// A plot a case of error beyond noise over seconds, and a table of every point.
+std::string curvesPlot(const std::vector<StudyCase>& cases);
 
 struct Bar {
   std::string name, colour;
@@ -44,6 +44,6 @@ struct Bar {
 };
 // Lying bars, the longest over the whole width, each with its number; a tick where the published value stands in ratio
 // to that of the bar `cone`, none without that bar.
-std::string barsSvg(const std::vector<Bar>& bars, const std::string& unit);
+std::string barsHtml(const std::vector<Bar>& bars, const std::string& unit);
 
 }  // namespace roomlight

@@ -26,9 +26,9 @@ constexpr int kWidestPicture = 480;
 constexpr const char* kStyle = R"(
 td.best{font-weight:700}
 .plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px 30px}
-.plots h3{margin:12px 0 0}svg{width:100%;max-width:680px;height:auto;display:block}
-svg .grid{stroke:#e4e7eb}svg .published{stroke:#111;stroke-width:2}
-.key{display:flex;gap:6px 18px;flex-wrap:wrap;margin:6px 0 10px;font-size:13.5px}.key i{display:inline-block;width:22px;height:0;border-top:3px solid;vertical-align:middle;margin-right:6px}
+.plots h3{margin:12px 0 0}
+.bars table{width:100%}.bars td{border:0;padding:3px 9px 3px 0;white-space:nowrap}td.bar{position:relative;width:75%;padding:0}
+.bar div{height:17px;min-width:1px;print-color-adjust:exact}.bar i{position:absolute;top:1px;bottom:1px;border-left:2px solid #111}
 .sheet{display:grid;grid-template-columns:repeat(auto-fill,minmax(210px,1fr));gap:12px;margin:8px 0 6px}
 .sheet figure{margin:0}.sheet img{width:100%;display:block}.sheet img+img{margin-top:2px}
 .sheet figcaption{font-size:12.5px;line-height:1.35;margin-top:3px}.sheet figcaption span{color:var(--soft)}
@@ -116,16 +116,6 @@ class Sheet {
   Image reference_;
   float ev100_ = 0;
 };
-
-std::string key(const std::vector<StudyCurve>& curves) {
-  std::string s = "<div class=\"key\">";
-  for (size_t i = 0; i < curves.size(); ++i) {
-    s += fmt::format("<span><i style=\"border-color:{}{}\"></i>{}</span>", colourOf(curves, i),
-                     curves[i].technique.find(',') != std::string::npos ? ";border-top-style:dashed" : "",
-                     escaped(curves[i].technique));
-  }
-  return s + "</div>\n";
-}
 
 std::string verdictTable(const StudyResults& r) {
   Table table({"asked", "<measured", ""});
@@ -225,14 +215,12 @@ std::string tables(const StudyResults& r) {
 }
 
 std::string errorOverTime(const StudyResults& r) {
-  std::string s =
-      "<h2>Error over time</h2><p>Every point is a picture of its own with twice the samples of the one before. Large "
-      "dots: where the error settles; diamonds: other renderers. Both axes are logarithmic; down and left is "
-      "better.</p>" +
-      key(r.cases.front().curves) + "<div class=plots>\n";
-  for (const StudyCase& c : r.cases)
-    s += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(c.scene + ", " + c.light), curvesSvg(c));
-  return s + "</div>\n";
+  return "<h2>Error over time</h2><p>Every point is a picture of its own with twice the samples of the one before. "
+         "Large "
+         "dots: where the error settles; diamonds: other renderers. Both axes are logarithmic; down and left is "
+         "better. Names above the plots show and hide curves; a box that is dragged zooms, a double click shows all "
+         "again.</p>" +
+         curvesPlot(r.cases);
 }
 
 // Those whose colours plots have: of pictures, or where there are none, of walks.
@@ -271,7 +259,7 @@ std::string frames(const StudyResults& r) {
           {f.technique, colour, f.cost.framesPerSecond, published.count(f.technique) ? published[f.technique] : 0});
     }
     if (!bars.empty())
-      s += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(scene + ", " + light), barsSvg(bars, "/s"));
+      s += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(scene + ", " + light), barsHtml(bars, "/s"));
   }
   return s + "</div>\n";
 }
@@ -295,7 +283,8 @@ Result<std::string> sheets(const StudyResults& r, const std::filesystem::path& f
 
 }  // namespace
 
-Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, const std::filesystem::path& folder) {
+Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, const std::filesystem::path& folder,
+                              const std::string& plots) {
   std::string s = "<h1>Study of techniques</h1>\n";
   if (!r.complete) s += "<p><b>Stopped early: this is a part.</b> Started again, the study goes on.</p>\n";
   if (nothingMeasured(r)) s += "<p>Nothing has been measured.</p>\n";
@@ -313,7 +302,8 @@ Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, 
   for (const std::string& remark : r.remarks) s += "<p class=soft>" + escaped(remark) + "</p>\n";
   return report::page("Study of techniques", kStyle,
                       s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take "
-                          "turns.</footer>\n");
+                          "turns.</footer>\n",
+                      plots);
 }
 
 }  // namespace roomlight

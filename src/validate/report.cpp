@@ -8,46 +8,35 @@
 #include <span>
 
 #include "report/page.h"
-#include "report/plot.h"
 #include "report/table.h"
 
 namespace roomlight {
 namespace {
 
-using report::Axis, report::Cell, report::escaped, report::Plot, report::Table;
+using report::Cell, report::escaped, report::Table;
 
 constexpr const char* kStyle =
     R"(body{font:15px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-weight:600}h2{margin-top:2.2rem;font-size:1.15rem}
 table{border-collapse:collapse;width:100%;font-size:.88rem}th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid #ddd}
 td{white-space:nowrap}th:first-child,td:first-child{text-align:left;white-space:normal}th{color:#555;font-weight:600}
-.pass{color:#0a6b3d}.fail{color:#b00020;font-weight:700}.basis{color:#666;font-size:.85rem;margin:.2rem 0 .6rem}svg{max-width:100%;height:auto})";
+.pass{color:#0a6b3d}.fail{color:#b00020;font-weight:700}.basis{color:#666;font-size:.85rem;margin:.2rem 0 .6rem})";
 
 std::string verdict(bool pass) { return pass ? "<span class='pass'>met</span>" : "<span class='fail'>missed</span>"; }
 
-// Error of every value, a row a technique: what lies within the band is allowed.
+// Error of every value, a row a technique.
 std::string dots(const Validation& v) {
-  constexpr double kWidth = 900, kLeft = 80, kRow = 46, kMost = 12;  // per cent
-  const double height = kRow * static_cast<double>(v.techniques.size()) + 30;
-  const Axis axis{-kMost, kMost, kLeft, kWidth - 20};
-  Plot plot(kWidth, height, "Error of every value by technique");
-  for (size_t t = 0; t < v.techniques.size(); ++t) {
-    const ValidationSummary& s = v.techniques[t];
-    const double y = kRow * static_cast<double>(t) + kRow / 2, allowed = std::min(s.allowedPercent, kMost);
-    plot.text(0, y + 5, s.technique, "font-size='14'");
-    plot.bar(axis.at(-allowed), y - 16, axis.at(allowed) - axis.at(-allowed), 32, "#e4f2ea");
-    size_t k = 0;
+  nlohmann::json rows = nlohmann::json::array();
+  for (const ValidationSummary& s : v.techniques) {
+    nlohmann::json values = nlohmann::json::array();
     for (const ValidationRow& r : v.rows) {
       if (r.technique != s.technique || r.errorUnit != "%") continue;
-      plot.dot(axis.at(std::clamp(r.error, -kMost, kMost)), y + static_cast<double>(k++ % 7) * 4 - 12, 3,
-               fmt::format("fill='{}' fill-opacity='.6'", r.pass ? "#0a6b3d" : "#b00020"),
-               fmt::format("{}, {}: {:+.2f} {}", r.name, r.place, r.error, r.errorUnit));
+      values.push_back(
+          {{"text", fmt::format("{}, {}: {:+.2f} %", r.name, r.place, r.error)}, {"error", r.error}, {"met", r.pass}});
     }
+    rows.push_back({{"name", s.technique}, {"allowed", s.allowedPercent}, {"values", values}});
   }
-  for (int p = -10; p <= 10; p += 5)
-    plot.text(axis.at(p), height - 6, fmt::format("{}{} %", p > 0 ? "+" : "", p),
-              "font-size='12' text-anchor='middle' fill='#555'");
-  return plot.svg();
+  return report::plot("errors", "Error of every value by technique", nlohmann::json{{"rows", rows}}.dump());
 }
 
 // Rows of one case: a line a place, beside each other what the techniques found.
@@ -109,7 +98,7 @@ std::string validationJson(const Validation& v) {
   return json.dump(1) + "\n";
 }
 
-std::string validationHtml(const Validation& v, const std::string& version) {
+std::string validationHtml(const Validation& v, const std::string& version, const std::string& plots) {
   Table summary({"technique", "allowed", "places met", "largest error", "where", ""});
   for (const ValidationSummary& s : v.techniques)
     summary.row({s.technique, fmt::format("{:g} %", s.allowedPercent), fmt::format("{} of {}", s.passed, s.places),
@@ -120,7 +109,8 @@ std::string validationHtml(const Validation& v, const std::string& version) {
           "</h1><p>Light meters in scenes whose light is known. Expected values are integrated numerically, apart from "
           "the program's own light. Allowed is 1 % at each place for <i>path</i>, 3 % for <i>hybrid</i>, and for "
           "<i>cone</i> 10 % of the sum over a case; of glare ratings half a unit.</p>" +
-          summary.html() + dots(v) + tables(v));
+          summary.html() + dots(v) + tables(v),
+      plots);
 }
 
 }  // namespace roomlight

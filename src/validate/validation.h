@@ -54,7 +54,8 @@ Result<Validation> validateTechniques(const ValidationSettings& settings, const 
 
 // A validation as files.
 std::string validationJson(const Validation& validation);
-// One page that needs nothing else: a summary, a dot for every value by technique, and the table of all.
-std::string validationHtml(const Validation& validation, const std::string& version);
+// One page that needs nothing else: a summary, a dot for every value by technique, and the table of all. `plots`: as of
+// report::page().
+std::string validationHtml(const Validation& validation, const std::string& version, const std::string& plots = {});
 
 }  // namespace roomlight

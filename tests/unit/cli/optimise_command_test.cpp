@@ -64,7 +64,7 @@ TEST_F(OptimiseCommand, WritesThePageTheFrontAndLightingFilesThatCanBeRendered) 
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   EXPECT_NE(run.out.find("design 1"), std::string::npos) << run.out;
   const std::string html = written("out/index.html");
-  for (const char* part : {"<!doctype html>", "id=\"front\"", "Design 1", "predicted", "</html>"})
+  for (const char* part : {"<!doctype html>", "data-plot=\"front\"", "Design 1", "predicted", "</html>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   const auto json = nlohmann::json::parse(written("out/run.json"));
   EXPECT_EQ(json["methods"].size(), 2u);

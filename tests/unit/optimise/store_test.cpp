@@ -1,6 +1,8 @@
 #include "optimise/store.h"
 
 #include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/hash.h"
 #include "optimise/evaluate.h"
@@ -268,8 +270,20 @@ TEST(Report, ThePageHoldsTheFrontAndEscapesNames) {
   search::State state = search::start(problem, {.seed = 1, .evaluations = 1000, .population = 40});
   search::run(problem, state);
   Report report{p.file.study(), p.candidates, p.meters, p.model, state.archive, {}, {}, {}};
-  const auto html = reportHtml(report, p.file.home);
+  report.designs.resize(1), report.designs[0].index = 3;
+  report.designs[0].result = resultOf(p.model, std::as_const(state.archive.designs)[3]);
+  const auto html = reportHtml(report, p.file.home, "<script>plots</script>");
   ASSERT_TRUE(html) << html.error();
+  EXPECT_NE(html.value().find("<script>plots</script>"), std::string::npos);
+  const std::string begin = "<script type=\"application/json\">";
+  const size_t from = html.value().find(begin) + begin.size();
+  const auto data = nlohmann::json::parse(html.value().substr(from, html.value().find("</script>", from) - from));
+  ASSERT_EQ(data["points"].size(), state.archive.size());
+  EXPECT_EQ(data["axes"].size(), p.model.objectives.size());
+  EXPECT_EQ(data["points"][3]["design"], 1);
+  EXPECT_FALSE(data["points"][0].contains("design"));
+  EXPECT_EQ(data["points"][0]["v"].size(), data["axes"].size());
+  EXPECT_NE(html.value().find("All designs of the front"), std::string::npos) << "for who has no scripts";
   EXPECT_NE(html.value().find("A &lt;b&gt; &amp;"), std::string::npos);
   EXPECT_EQ(html.value().find("<b> &"), std::string::npos);
   const std::string csv = frontCsv(report);

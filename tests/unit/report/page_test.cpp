@@ -21,6 +21,15 @@ TEST(Page, HasItsOwnStyleAfterTheSharedOneAndTheBodyInAColumn) {
   EXPECT_NE(plain.find("<style>p{color:red}</style></head>\n<body><p>x</p></body>"), std::string::npos);
 }
 
+TEST(Page, CarriesWhatDrawsPlotsWhereItHasAny) {
+  const std::string script = "<script>draw()</script>", shown = plot("front", "All <designs>", R"({"a":"</script>"})");
+  EXPECT_NE(shown.find("data-plot=\"front\" role=\"group\" aria-label=\"All &lt;designs&gt;\""), std::string::npos);
+  EXPECT_NE(shown.find(R"(<script type="application/json">{"a":"\u003c/script>"}</script>)"), std::string::npos);
+  EXPECT_NE(page("A", "", shown, script).find("</main>" + script + "</body>"), std::string::npos);
+  EXPECT_NE(plainPage("A", "", shown, script).find(script + "</body>"), std::string::npos);
+  EXPECT_EQ(page("A", "", "<p>plot</p>", script).find(script), std::string::npos);
+}
+
 // The vectors of RFC 4648.
 TEST(Page, PicturesAreInThePageAsBase64) {
   const std::pair<std::string, std::string> vectors[] = {

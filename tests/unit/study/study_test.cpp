@@ -121,9 +121,10 @@ TEST_F(StudyTest, WhereNoTechniqueIsForPicturesThereAreWalksAlone) {
   EXPECT_DOUBLE_EQ(done_, 0.5) << "before the second of two runs";
   ASSERT_EQ(r.value().frames.size(), 1u);
   EXPECT_FALSE(nothingMeasured(r.value()));
-  const Result<std::string> html = studyHtml({}, r.value(), folder_.path() / "runs");
+  const Result<std::string> html = studyHtml({}, r.value(), folder_.path() / "runs", "<script>plots</script>");
   ASSERT_TRUE(html) << html.error();
   EXPECT_NE(html.value().find("<h3>Room, daylight</h3>"), std::string::npos);
+  EXPECT_EQ(html.value().find("<script"), std::string::npos) << "bars need none";
 }
 
 TEST_F(StudyTest, WhereNothingCouldBeMeasuredThePageSaysWhy) {
@@ -267,8 +268,20 @@ TEST_F(StudyTest, ReportsAreWholeAndAgree) {
     EXPECT_EQ(std::count(csv.begin() + static_cast<long>(from), csv.begin() + static_cast<long>(end), ','), 12)
         << csv.substr(from, end - from);
   }
-  const Result<std::string> html = studyHtml(header, r.value(), folder_.path() / "runs");
+  const Result<std::string> html = studyHtml(header, r.value(), folder_.path() / "runs", "<script>plots</script>");
   ASSERT_TRUE(html) << html.error();
+  EXPECT_NE(html.value().find("<script>plots</script>"), std::string::npos);
+  const std::string begin = "<script type=\"application/json\">";
+  const size_t from = html.value().find(begin) + begin.size();
+  const auto plotted = nlohmann::json::parse(html.value().substr(from, html.value().find("</script>", from) - from));
+  const auto& curves = plotted["cases"][0]["curves"];
+  ASSERT_EQ(curves.size(), 2u) << "one has no points";
+  const StudyCurve& cone = r.value().cases[0].curves[0];
+  EXPECT_EQ(curves[0]["name"], "cone");
+  ASSERT_EQ(curves[0]["points"].size(), cone.points.size());
+  EXPECT_EQ(curves[0]["points"][0][0], cone.points[0].samples);
+  EXPECT_EQ(&cone.points[curves[0]["settled"].get<size_t>()], &settledPoint(cone));
+  EXPECT_NE(html.value().find("<summary>Every point</summary>"), std::string::npos) << "for who has no scripts";
   EXPECT_NE(html.value().find("&lt;fast &amp; cheap&gt;"), std::string::npos);
   EXPECT_NE(html.value().find("data:image/jpeg;base64,"), std::string::npos);
   EXPECT_EQ(html.value().find("src=\"http"), std::string::npos) << "needs nothing from elsewhere";
@@ -364,15 +377,15 @@ TEST_F(StudyTest, VerdictsTellWhoWins) {
 
 TEST(StudyBars, PublishedTicksAreInRatioToCone) {
   const auto ticks = [](const std::vector<Bar>& bars) {
-    const std::string svg = barsSvg(bars, "/s");
+    const std::string html = barsHtml(bars, "/s");
     size_t count = 0;
-    for (size_t at = 0; (at = svg.find("class='published'", at)) != std::string::npos; ++at) ++count;
+    for (size_t at = 0; (at = html.find("title=\"published", at)) != std::string::npos; ++at) ++count;
     return count;
   };
   const Bar vxgi{"vxgi", "#000", 9, 28}, cone{"cone", "#000", 18, 36};
   EXPECT_EQ(ticks({vxgi}), 0u) << "nothing to be in ratio to";
   EXPECT_EQ(ticks({vxgi, cone}), 2u);
-  EXPECT_NE(barsSvg({vxgi, cone}, "/s").find("class='published' x1='470.0'"), std::string::npos)
+  EXPECT_NE(barsHtml({vxgi, cone}, "/s").find("left:100.0%\" title=\"published, in ratio: 36"), std::string::npos)
       << "cone's own stands at its end, the longest, whichever comes first";
 }
 
