@@ -34,7 +34,8 @@ export interface Chart {
   readonly bands?: readonly { readonly x: Range; readonly y: Range }[]; // behind all
 }
 
-// The dot that a place is nearest to, in pixels and no farther than `reach`; the later of two as near, which lies above.
+// The dot that a place is nearest to, in pixels and no farther than `reach`; of two as near the later, which lies
+// above.
 export function nearestDot(
   dots: readonly Dot[],
   pixelOf: (dot: Dot) => readonly [number, number],

@@ -71,7 +71,7 @@ function writeReport(name: string, plots: string, script = readFileSync(kScript,
     `<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">` +
       `<title>Report</title><style>body{margin:0;font:15px/1.5 Helvetica,Arial,"Liberation Sans",sans-serif}` +
       `main{max-width:1180px;margin:0 auto;padding:20px}</style><main>${plots}` +
-      `<h2 id="design1">Design 1</h2><h2 id="design2">Design 2</h2><h2 id="design3">Design 3</h2></main>${script}</html>`,
+      `${[1, 2, 3].map(i => `<h2 id="design${i}">Design ${i}</h2>`).join("")}</main>${script}</html>`,
   );
   return pathToFileURL(path).href;
 }
