@@ -26,6 +26,7 @@ constexpr float kAlongStrips = 4;      // so much longer are texels of strips as
 constexpr float kLongestTexelM = 2, kLongerTexels = 1.4f;  // until an atlas fits
 constexpr int kLeastRow = 32, kMostRow = 1024;  // texels of vertices side by side
 constexpr float kOffRoomM = 0.1f;      // from a wall, in the room that it faces
+constexpr float kLongestFootprintM = 0.3f;  // over which a texel's direct light is averaged
 constexpr float kInsideTexels =
     0.75f; // a texel whose middle is so near takes light, at the nearest place of the chart
 constexpr float kReachTexels = 1.5f;   // and one so near is read by linear interpolation
@@ -192,7 +193,7 @@ class AtlasWriter {
       const int tx = static_cast<int>(i) % w, ty = static_cast<int>(i) / w;
       if (tx < kGap || ty < kGap || tx >= w - kGap || ty >= h - kGap) continue;
       elementAt[i] = static_cast<uint32_t>(atlas_.elements.size());
-      atlas_.elements.push_back(elementIn(chart, nearest[i]));
+      atlas_.elements.push_back(elementIn(chart, nearest[i], texelEdgeM(grid)));
       atlas_.texels.push_back(texelAt(x + tx, y + ty));
     }
     pad(elementAt, nearest, w, {x, y});
@@ -235,11 +236,14 @@ class AtlasWriter {
     }
   }
 
-  SurfaceElement elementIn(const Chart& chart, const Corner& at) const {
+  static float texelEdgeM(const Grid& grid) {
+    return std::min(kLongestFootprintM, 1 / std::sqrt(std::max(grid.perM.x * grid.perM.y, 1e-6f)));
+  }
+  SurfaceElement elementIn(const Chart& chart, const Corner& at, float edgeM) const {
     const std::array<uint32_t, 3> c = cornersOf(chart, at.triangle);
     const std::array<Vec3, 3> p = placesOf(c);
     const Vec3 place = p[0] * (1 - at.b1 - at.b2) + p[1] * at.b1 + p[2] * at.b2;
-    return {towards(place, (p[0] + p[1] + p[2]) / 3), normalAt(chart, c, geometricNormal(p), at.b1, at.b2)};
+    return {towards(place, (p[0] + p[1] + p[2]) / 3), normalAt(chart, c, geometricNormal(p), at.b1, at.b2), edgeM};
   }
 
   // Texels that interpolation reads and no element stands for repeat the nearest one.

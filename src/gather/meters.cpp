@@ -11,9 +11,11 @@ namespace {
 
 constexpr uint64_t kMeterKey = 0x3e7e12;  // other random numbers than pixels have,
 constexpr uint64_t kLampKey = 0x3e7e13;   // and for places on lamps
+constexpr uint64_t kPlaceKey = 0x3e7e14;  // and for places of a meter's square
 constexpr int kBatch = 64;                // samples of a meter in layers at once; what their errors are judged by:
 constexpr int kLeastBatch = 4;            // fewer where fewer samples are asked for, four batches of them
 constexpr int kPlaces = 2;                // on extended lamps, a batch
+constexpr int kSquarePlaces = 16;         // of a meter's square, for lamps that are points
 constexpr float kOfStrongest = 0.03f;      // of light on a meter: layers weaker than that need not be surer than it
 
 // An ideal white Lambertian surface reflects 1 / pi of what falls on it.
@@ -23,6 +25,17 @@ SurfacePoint whitePatch(const SurfaceElement& element) {
   s.ng = s.smooth = s.ns = element.normal;
   s.m.baseColor = Vec3(1);
   return s;
+}
+
+// A place of the element's square by two random numbers, clear of the surface; its middle, where something is in the
+// way.
+Vec3 placeWithin(const RayScene& rays, const SurfaceElement& element, Vec2 u) {
+  const Vec3 middle = offsetOrigin(element.position, element.normal);
+  const Frame frame(element.normal);
+  const Vec3 way = (frame.t * (u.x - 0.5f) + frame.b * (u.y - 0.5f)) * element.footprintM;
+  const float far = length(way);
+  if (!(far > 0) || isBlack(rays.transmittance(Ray{middle, way / far, 0, far}))) return middle;
+  return middle + way;
 }
 
 // Random numbers of a meter's samples, from one of them on.
@@ -36,14 +49,16 @@ struct MeterStream {
 struct MeterSamples {
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
-  void take(const SharpLights& sharp, const SurfaceElement& element, const MeterStream& stream, int count,
-            bool lampsKnown = false) {
+  void take(const RayScene& rays, const SharpLights& sharp, const SurfaceElement& element, const MeterStream& stream,
+            int count, bool lampsKnown = false) {
     shadings.clear(), shadows.clear();
     const SurfacePoint s = whitePatch(element);
-    const Vec3 origin = offsetOrigin(s.p, s.ng);
+    Vec3 origin = offsetOrigin(s.p, s.ng);
     for (int k = 0; k < count; ++k) {
       Sampler sampler(mix64(stream.meter + kMeterKey), static_cast<uint32_t>(stream.first + k), stream.seed);
       const auto firstShadow = static_cast<uint32_t>(shadows.size());
+      if (element.footprintM > 0 && sharp.count() > 0)
+        origin = placeWithin(rays, element, sampler.forked(kPlaceKey).next2());
       for (size_t i = 0; i < sharp.count(); ++i) {
         const Vec2 u = sampler.next2();
         shadows.push_back(sharp.shadow(i, {&origin, 1}, {&u, 1}));
@@ -96,14 +111,15 @@ void addLamps(const TracedScene& scene, const LightLayers& layers, const Surface
   thread_local std::vector<std::pair<size_t, Vec3>> arrives;
   thread_local std::vector<Vec3> left;
   shadowRays.clear(), arrives.clear();
-  const Vec3 origin = offsetOrigin(element.position, element.normal);
+  Vec3 origin = offsetOrigin(element.position, element.normal), position = element.position;
   for (const Sampler& place : places) {
+    if (element.footprintM > 0) position = origin = placeWithin(scene.rays, element, place.forked(kPlaceKey).next2());
     for (size_t i = 0; i < lights.lampCount(); ++i) {
       if (lights.lamp(i).extended != extended) continue;
-      const LightSample light = lights.sampleLamp(i, element.position, place.forked(i).next2());
+      const LightSample light = lights.sampleLamp(i, position, place.forked(i).next2());
       const float cosine = light.valid() ? dot(light.wi, element.normal) : 0;
       if (cosine <= 0) continue;
-      shadowRays.push_back(shadowRay(origin, element.position, light));
+      shadowRays.push_back(shadowRay(origin, position, light));
       arrives.emplace_back(static_cast<size_t>(layers.ofLamp[i]),
                            light.radiance * (cosine / static_cast<float>(places.size())));
     }
@@ -114,17 +130,22 @@ void addLamps(const TracedScene& scene, const LightLayers& layers, const Surface
 }
 
 // Adds the means of one batch of all but lamps' direct light.
-void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element,
-                  const MeterStream& stream, int count, std::vector<Vec3>& means) {
+struct MeterTools {
+  const RayScene& rays;
+  const SharpLights& sharp;
+  const SurfaceShader& shader;
+};
+void sampleLayers(const MeterTools& tools, const SurfaceElement& element, const MeterStream& stream, int count,
+                  std::vector<Vec3>& means) {
   thread_local MeterSamples samples;
   thread_local std::vector<SurfaceLight> light;
   thread_local LayerSums sums;
-  samples.take(sharp, element, stream, count, true);
+  samples.take(tools.rays, tools.sharp, element, stream, count, true);
   light.assign(samples.shadings.size(), {});
   sums = LayerSums(means.size(), true);
   sums.resize(samples.shadings.size());
   GatherCounters counters;
-  shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
+  tools.shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
   for (size_t l = 0; l < means.size(); ++l)
     means[l] +=
         (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / static_cast<float>(count));
@@ -139,11 +160,16 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     thread_local MeterSamples samples;
     thread_local std::vector<SurfaceLight> light;
-    samples.take(sharp, elements[meter], {meter, first, settings.seed}, count);
+    samples.take(rays, sharp, elements[meter], {meter, first, settings.seed}, count);
     light.assign(samples.shadings.size(), {});
     GatherCounters counters;
     shader.shade(samples.shadings, samples.shadows, light, counters);
-    for (size_t k = 0; k < light.size(); ++k) lux[k] += (light[k].diffuse + light[k].rare + light[k].sharp) * kPi;
+    // What differs over a meter's square is no noise: each sample has the mean of it.
+    const bool isSquare = elements[meter].footprintM > 0;
+    Vec3 mean;
+    for (const SurfaceLight& l : light) mean += l.sharp / static_cast<float>(light.size());
+    for (size_t k = 0; k < light.size(); ++k)
+      lux[k] += (light[k].diffuse + light[k].rare + (isSquare ? mean : light[k].sharp)) * kPi;
   };
   return readMeters(rays, lights, elements, settings, {sample}, progress);
 }
@@ -167,13 +193,13 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
         places.emplace_back(mix64(i + kLampKey), static_cast<uint32_t>(firstPlace + k), settings.seed);
       addLamps({rays, lights}, *shader.layers(), elements[i], extended, places, lux);
     };
-    lamps(false, 0, 1, steady);
+    lamps(false, 0, elements[i].footprintM > 0 ? kSquarePlaces : 1, steady);
     for (int first = 0, count = std::max(settings.fewestSamples, 2 * batch);
          count <= std::max(settings.mostSamples, 2 * batch) && !progress.stop(); count *= 2) {
       for (; first < count && !progress.stop(); first += batch) {
         means = steady;
         if (lights.hasExtendedLamps()) lamps(true, first / batch * kPlaces, kPlaces, means);
-        sampleLayers(sharp, shader, elements[i], {i, first, settings.seed}, batch, means);
+        sampleLayers({rays, sharp, shader}, elements[i], {i, first, settings.seed}, batch, means);
         meter.add(means);
       }
       if (meter.sureTo(settings.tolerance)) break;

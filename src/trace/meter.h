@@ -17,16 +17,19 @@ namespace roomlight {
 // meter.
 struct SurfaceElement {
   Vec3 position, normal{0, 1, 0};
+  // Edge of the square around it, m, over which what comes straight from small sources is averaged by techniques whose
+  // shadows are sharp, so that their edges are where they are; 0: at the point.
+  float footprintM = 0;
 };
 
 struct MeterReading {
-  Vec3 illuminanceLux;          // luminance(rgb) is the reading
+  Vec3 illuminanceLux;  // luminance(rgb) is the reading
   double standardErrorLux = 0;  // as if samples were independent; stratification makes the real one smaller
 };
 
 struct MeterSettings {
   double tolerance = 0.01;  // relative standard error at which a meter is read
-  int fewestSamples = 64;   // powers of two
+  int fewestSamples = 64;  // powers of two
   int mostSamples = 1 << 14;
   uint64_t seed = 0;
 };

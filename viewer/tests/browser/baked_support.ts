@@ -73,9 +73,11 @@ export async function visitHome(
   browser: Browser,
   link: string,
   options: BrowserContextOptions = {},
+  before: (page: Page) => Promise<void> = async () => {},
 ): Promise<BakedVisit> {
   const context = await browser.newContext({ acceptDownloads: true, locale: "en-GB", ...options });
   const page = await context.newPage();
+  await before(page);
   page.setDefaultTimeout(30000);
   const complaints: string[] = [];
   page.on("console", message => {

@@ -1,9 +1,10 @@
 // Pictures of a baked home for measuring: node shoot_baked.js PAGE WIDTHxHEIGHT < [{"hash": "#..", "file": ".png"}, ..]
-// Writes the pictures, and to stdout what they cost: [{"draws", "triangles", "frameMs"}, ..].
+// Writes the pictures, and to stdout what they cost: [{"calls", "textureBytes", ..}, ..].
 import { writeFileSync } from "node:fs";
 import { text } from "node:stream/consumers";
 import { pathToFileURL } from "node:url";
 import { launchWithWebGl, visitHome } from "./baked_support.js";
+import { countTextureBytes, textureBytes } from "./texture_bytes.js";
 
 interface Shot {
   readonly hash: string;
@@ -17,10 +18,9 @@ const shots = JSON.parse(await text(process.stdin)) as Shot[];
 const browser = await launchWithWebGl();
 const costs = [];
 for (const { hash, file } of shots) {
-  const visit = await visitHome(browser, pathToFileURL(path).href + hash, {
-    viewport: { width, height },
-    reducedMotion: "reduce",
-  });
+  const viewport = { width, height };
+  const link = pathToFileURL(path).href + hash;
+  const visit = await visitHome(browser, link, { viewport, reducedMotion: "reduce" }, countTextureBytes);
   const { page } = visit;
   const panel = page.getByLabel("Close controls", { exact: true });
   await page.locator("#view").waitFor();
@@ -31,7 +31,8 @@ for (const { hash, file } of shots) {
   if (view?.width !== width || view.height !== height)
     throw new Error(`the picture is ${view?.width}x${view?.height} instead of ${size}`);
   writeFileSync(file, await page.screenshot());
-  costs.push(await page.locator("#view").evaluate(v => ({ ...(v as HTMLElement).dataset })));
+  const told = await page.locator("#view").evaluate(v => ({ ...(v as HTMLElement).dataset }));
+  costs.push({ ...told, textureBytes: await textureBytes(page) });
   await visit.end();
 }
 await browser.close();
