@@ -2,18 +2,22 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
 #include "base/worker_thread.h"
 
 namespace roomlight {
 
+// Halved down to the grain whoever is free to help. By another partitioner the ranges would depend on threads and on
+// what else the machine does, and with them the packets of rays that are traced together and the last bits of results.
 void parallelRanges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
   if (count == 0) return;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain ? grain : 1), [&](const tbb::blocked_range<size_t>& r) {
+  const auto one = [&](const tbb::blocked_range<size_t>& r) {
     const FlushToZero flushing;
     body(r.begin(), r.end());
-  });
+  };
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain ? grain : 1), one, tbb::simple_partitioner());
 }
 
 void withThreads(int threads, const std::function<void()>& work) {

@@ -5,7 +5,10 @@
 #include <pmmintrin.h>
 
 #include <atomic>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace roomlight {
@@ -24,6 +27,24 @@ TEST(Parallel, emptyRangesAndZeroGrainAreFine) {
   std::atomic<size_t> sum = 0;
   parallelRanges(10, 0, [&](size_t begin, size_t end) { sum += end - begin; });
   EXPECT_EQ(sum.load(), 10u);
+}
+
+// What is done for several indices at once, such as rays traced in packets, may differ by the range in its last bits.
+TEST(Parallel, rangesAreTheSameWithAnyNumberOfThreads) {
+  const auto ranges = [](int threads) {
+    std::set<std::pair<size_t, size_t>> out;
+    std::mutex mutex;
+    withThreads(threads, [&] {
+      parallelRanges(10'007, 16, [&](size_t begin, size_t end) {
+        const std::lock_guard lock(mutex);
+        out.emplace(begin, end);
+      });
+    });
+    return out;
+  };
+  const auto expected = ranges(1);
+  EXPECT_GT(expected.size(), 10'007u / 16);
+  for (const int threads : {2, 7, 32}) EXPECT_EQ(ranges(threads), expected) << threads;
 }
 
 TEST(Parallel, threadCapIsSeenInside) {
