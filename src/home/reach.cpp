@@ -1,6 +1,7 @@
 #include "home/cameras.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -175,6 +176,19 @@ Kept keptOf(const Scene& scene, const Instance& instance, const Cells& cells) {
   return kept;
 }
 
+std::vector<Kept> keptOf(const Scene& scene, Cells cells) {
+  cells.widen();
+  std::vector<Kept> kept(scene.instances.size());
+  parallelFor(kept.size(), 1, [&](size_t i) { kept[i] = keptOf(scene, scene.instances[i], cells); });
+  return kept;
+}
+
+bool areMost(const std::vector<Kept>& kept) {
+  double keptM2 = 0, allM2 = 0;
+  for (const Kept& k : kept) keptM2 += k.keptM2, allM2 += k.allM2;
+  return keptM2 > kMostKept * allM2;
+}
+
 template <class T>
 void pick(std::vector<T>& values, const std::vector<uint32_t>& vertices) {
   if (values.empty()) return;
@@ -208,13 +222,15 @@ std::optional<Scene> withinReach(const RayScene& rays, std::span<const Camera> c
   const Scene& scene = rays.scene();
   if (maxComponent(rays.bounds().size()) < kHomeM) return std::nullopt;
   Cells cells(rays.bounds());
-  for (const Camera& camera : cameras) markReached(rays, camera, cells);
+  std::vector<Kept> kept;
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    markReached(rays, cameras[i], cells);
+    // Of many cameras the first ones may tell: others only add to what they reach.
+    if (!std::has_single_bit(i + 1) && i + 1 < cameras.size()) continue;
+    kept = keptOf(scene, cells);
+    if (areMost(kept)) return std::nullopt;
+  }
   cells.widen();
-  std::vector<Kept> kept(scene.instances.size());
-  parallelFor(kept.size(), 1, [&](size_t i) { kept[i] = keptOf(scene, scene.instances[i], cells); });
-  double keptM2 = 0, allM2 = 0;
-  for (const Kept& k : kept) keptM2 += k.keptM2, allM2 += k.allM2;
-  if (keptM2 > kMostKept * allM2) return std::nullopt;
 
   Scene out;
   out.materials = scene.materials, out.textures = scene.textures, out.leaves = scene.leaves;
