@@ -1,7 +1,5 @@
 #include "base/tone.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/parallel.h"
@@ -55,10 +53,12 @@ std::vector<std::string> toneCurveNames() {
 }
 
 Result<ToneCurve> toneCurveFromName(std::string_view name) {
+  std::string all;
   for (const auto& [known, curve] : kCurves) {
     if (name == known) return curve;
+    all += (all.empty() ? "" : ", ") + std::string(known);
   }
-  return Error{fmt::format("unknown tone curve '{}'; there are {}", name, fmt::join(toneCurveNames(), ", "))};
+  return Error{"unknown tone curve '" + std::string(name) + "'; there are " + all};
 }
 
 std::string_view toneCurveName(ToneCurve curve) {

@@ -2,8 +2,12 @@
  // src/validate.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "base/parallel.h"
 #include "engine/lit_scene.h"
+#include "engine/settings.h"
+#include "scene/primitives.h"
 #include "support/rooms.h"
 #include "support/techniques.h"
 
@@ -47,6 +51,30 @@ TEST_P(Meters, doNotDependOnThreads) {
       lux[threads - 1] = read(scene, {{{2, 0, 2}, {0, 1, 0}}, {{1, 1.5f, 3}, {0, 0.6f, 0.8f}}});
     });
   EXPECT_EQ(lux[0], lux[1]);
+}
+
+// A sheet 1 m over a black floor keeps the sun from x < 2; a black wall stands at x = 4.
+TEST(MetersOfSquares, haveTheMeanOfDirectLight) {
+  Scene scene;
+  const int black = test::addMaterial(scene, test::lambertian(0));
+  addRectangle(scene, {0, 0, 0}, {0, 0, 4}, {4, 0, 0}, black);
+  addRectangle(scene, {0, 1, 0}, {0, 0, 4}, {2, 0, 0}, black);
+  addRectangle(scene, {4, -1, 0}, {0, 2, 0}, {0, 0, 4}, black);
+  scene.suns = {{"", {0, 1, 0}, Vec3(1000), 0.0005f}};
+  scene.lamps = {test::pointLamp({2, 40, 2}, 1000 * 40 * 40)};
+  const Vec3 up{0, 1, 0};
+  const std::vector<SurfaceElement> elements = {
+      {{2, 0, 2}, up, 0.2f}, {{2.05f, 0, 2}, up, 0.2f}, {{2.05f, 0, 2}, up, 0}, {{3.99f, 0, 2}, up, 0.2f}};
+  RenderSettings settings;
+  settings.technique = technique::kHybrid;
+  RenderStats stats;
+  const RenderProgress quiet;
+  Stages stages(quiet, stats);
+  const auto lit = lightScene(scene, settings, stages, {.changes = false});
+  ASSERT_TRUE(lit);
+  const std::vector<MeterReading> lux = lit.value()->illuminance(elements, {0.01, 256, 256, 0});
+  const std::array<float, 4> share{0.5f, 0.75f, 1, 1};
+  for (size_t i = 0; i < share.size(); ++i) EXPECT_NEAR(luminance(lux[i].illuminanceLux), 2000 * share[i], 40) << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, Meters, testing::ValuesIn(test::validatedTechniques()),
