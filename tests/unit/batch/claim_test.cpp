@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -59,7 +60,7 @@ TEST_F(BatchClaim, OfADeadProcessHereIsTakenOverAtOnceWithWhatItLeft) {
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_EQ(status, 0);
-  const auto left = folder_.path() / "out/01" / (std::string(kId) + ".child.tmp");
+  const auto left = folder_.path() / fmt::format("out/01/{}.child.tmp", kId);
   std::filesystem::create_directories(left);
   Claims mine(folder_);
   ASSERT_EQ(mine.all().size(), 1u);
