@@ -204,7 +204,7 @@ class Programs {
     // The study's own reading of a file: in its own unit, with the light that it holds.
     words.insert(words.end(), {"--light", "file", "--metres-per-unit", "1"});
     words.insert(words.end(), {"--settings", settingsFile.string(), "--stats", stats.string(), "--quiet"});
-    if (const Status s = runThisProgram(words, &interrupted()); !s) return Error{s.error()};
+    if (const Status s = runThisProgram(words, interrupted()); !s) return Error{s.error()};
     const Result<std::string> text = readTextFile(stats);
     if (!text) return Error{text.error()};
     nlohmann::json read = nlohmann::json::parse(text.value(), nullptr, false);

@@ -35,8 +35,8 @@ std::filesystem::path pageFolder(const std::string& installed, const std::string
 std::string reportPlots();
 
 // Runs it once more as a process of its own, with these arguments, its output thrown away. Where `cancelled` becomes
-// true it is told to end (SIGTERM) until it does, and its result is an error; where the calling thread ends, it is told
-// too (Linux). Errors: what it said on stderr last, without "roomlight: "; or that it was killed.
-Status runThisProgram(const std::vector<std::string>& arguments, const std::atomic<bool>* cancelled = nullptr);
+// true, or the calling thread ends (Linux), it is killed. Errors: what it said on stderr last, without "roomlight: ";
+// that it was killed; or "interrupted".
+Status runThisProgram(const std::vector<std::string>& arguments, const std::atomic<bool>& cancelled);
 
 }  // namespace roomlight::cli
