@@ -1,11 +1,8 @@
 #include "base/shared_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <random>
 #include <string_view>
@@ -44,21 +41,6 @@ bool isAbandoned(const fs::path& file) {
   return !code && fs::file_time_type::clock::now() - written > kAbandoned;
 }
 
-// Errors are those of errno; 0: none.
-int writeToDisk(const fs::path& file, std::string_view bytes) {
-  const int out = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (out < 0) return errno;
-  int reason = 0;
-  while (!bytes.empty() && reason == 0) {
-    const ssize_t written = ::write(out, bytes.data(), bytes.size());
-    if (written > 0) bytes.remove_prefix(static_cast<size_t>(written));
-    if (written < 0 && errno != EINTR) reason = errno;
-  }
-  if (reason == 0 && ::fsync(out) != 0) reason = errno;
-  if (::close(out) != 0 && reason == 0) reason = errno;
-  return reason;
-}
-
 }  // namespace
 
 bool SharedFiles::has(const std::string& name) const {
@@ -94,7 +76,7 @@ Status SharedFiles::keep(const std::string& name, std::string bytes) const {
   fs::create_directories(folder_, code);
   // A name that no other process or machine has.
   const fs::path part = folder_ / fmt::format("{}{}{}{:08x}", name, kind_, kUnfinished, std::random_device()());
-  int reason = writeToDisk(part, bytes);
+  int reason = writeSynced(part, bytes);
   if (reason == 0) {
     fs::rename(part, file, code);
     reason = code.value();

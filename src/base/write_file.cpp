@@ -36,6 +36,20 @@ Status writeWhole(const std::filesystem::path& file, std::string_view bytes) {
   return cannotWrite(file, reason);
 }
 
+int writeSynced(const std::filesystem::path& file, std::string_view bytes) {
+  const int out = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (out < 0) return errno;
+  int reason = 0;
+  while (!bytes.empty() && reason == 0) {
+    const ssize_t written = ::write(out, bytes.data(), bytes.size());
+    if (written > 0) bytes.remove_prefix(static_cast<size_t>(written));
+    if (written < 0 && errno != EINTR) reason = errno;
+  }
+  if (reason == 0 && ::fsync(out) != 0) reason = errno;
+  if (::close(out) != 0 && reason == 0) reason = errno;
+  return reason;
+}
+
 namespace {
 
 constexpr int kMostAttempts = 100;

@@ -29,20 +29,6 @@ Status syncOne(const fs::path& path, int flags) {
   return done ? Status(Ok{}) : cannotWrite(path, reason);
 }
 
-Status writeAndSync(const fs::path& file, std::string_view bytes) {
-  const int out = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (out < 0) return cannotWrite(file, errno);
-  int reason = 0;
-  while (!bytes.empty() && reason == 0) {
-    const ssize_t done = write(out, bytes.data(), bytes.size());
-    if (done > 0) bytes.remove_prefix(static_cast<size_t>(done));
-    if (done < 0 && errno != EINTR) reason = errno;
-  }
-  if (reason == 0 && fsync(out) != 0) reason = errno;
-  if (close(out) != 0 && reason == 0) reason = errno;
-  return reason == 0 ? Status(Ok{}) : cannotWrite(file, reason);
-}
-
 }  // namespace
 
 const std::string& processToken() {
@@ -59,7 +45,8 @@ const std::string& processToken() {
 
 Status writeDurably(const fs::path& file, std::string_view bytes) {
   const fs::path part = file.string() + "." + processToken() + ".part";
-  Status status = writeAndSync(part, bytes);
+  const int reason = writeSynced(part, bytes);
+  Status status = reason == 0 ? Status(Ok{}) : cannotWrite(part, reason);
   std::error_code code;
   if (status) {
     fs::rename(part, file, code);
