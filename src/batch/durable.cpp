@@ -31,16 +31,16 @@ Status syncOne(const fs::path& path, int flags) {
 
 }  // namespace
 
-const std::string& processToken() {
-  static const std::string token = [] {
-    char host[256] = "host";
-    gethostname(host, sizeof host - 1);
+std::string processToken() {
+  static const std::string host = [] {
+    char whole[256] = "host";
+    gethostname(whole, sizeof whole - 1);
     std::string name;
-    for (const char* c = host; *c && *c != '.'; ++c) name += std::isalnum(static_cast<unsigned char>(*c)) ? *c : '-';
-    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-    return fmt::format("{}-{}-{:x}", name, getpid(), now & 0xffffffff);
+    for (const char* c = whole; *c && *c != '.'; ++c) name += std::isalnum(static_cast<unsigned char>(*c)) ? *c : '-';
+    return name;
   }();
-  return token;
+  static const auto start = std::chrono::steady_clock::now().time_since_epoch().count() & 0xffffffff;
+  return fmt::format("{}-{}-{:x}", host, getpid(), start);  // a child by fork() has one of its own
 }
 
 Status writeDurably(const fs::path& file, std::string_view bytes) {

@@ -10,7 +10,7 @@
 namespace roomlight::batch {
 
 // Names this process among all machines: host, process and when it started. Fit for names of files.
-const std::string& processToken();
+std::string processToken();
 
 // A reader sees the old file or the whole new one, after a crash too.
 Status writeDurably(const std::filesystem::path& file, std::string_view bytes);
