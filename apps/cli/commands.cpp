@@ -10,7 +10,7 @@ std::vector<Registered> addCommands(CLI::App& program) {
   const std::vector<Registered> commands = {
       addRender(program),  addView(program),     addWalk(program),  addBake(program),     addMix(program),
       addMeasure(program), addValidate(program), addStudy(program), addOptimise(program), addBatch(program),
-      addCompare(program), addDevelop(program),  addInfo(program)};
+      addCompare(program), addDevelop(program),  addInfo(program),  addDoctor(program)};
   // An empty word, as an unset variable of a shell leaves it, would pass for "not given".
   const auto notEmpty = [](const std::string& value) { return std::string(value.empty() ? "has an empty value" : ""); };
   for (const Registered& command : commands) {

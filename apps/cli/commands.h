@@ -25,6 +25,7 @@ Registered addMeasure(CLI::App& program);
 Registered addCompare(CLI::App& program);
 Registered addDevelop(CLI::App& program);
 Registered addInfo(CLI::App& program);
+Registered addDoctor(CLI::App& program);
 Registered addMix(CLI::App& program);
 Registered addWalk(CLI::App& program);
 Registered addValidate(CLI::App& program);

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "option_list.h"
 #include "base/result.h"
 #include "engine/settings.h"
 
@@ -14,6 +15,9 @@ namespace {
 int runProgram(int argc, char** argv) {
   CLI::App program("Light in a real home: opens a scene, lights it, writes the picture, judges it.", "roomlight");
   program.set_version_flag("--version", std::string("roomlight ") + roomlight::version());
+  program.add_flag_callback(
+      "--options", [&] { throw CLI::CallForVersion(roomlight::cli::optionsJson(program), roomlight::cli::kOk); },
+      "Print all commands and options as JSON and exit");
   program.require_subcommand(1);
   program.footer(
       "Examples:\n"

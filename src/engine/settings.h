@@ -80,6 +80,6 @@ std::vector<std::pair<std::string, std::string>> qualities();
 Status applyQuality(const std::string& name, RenderSettings& settings);
 
 // The program's version, as in CMakeLists.txt.
-const char* version();  // "0.1.0"
+const char* version();  // "1.0.0-rc1"
 
 }  // namespace roomlight
