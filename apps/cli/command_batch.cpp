@@ -148,12 +148,16 @@ int runStatus(const BatchOptions& o) {
 int runMerge(const BatchOptions& o) {
   const Result<batch::TaskList> list = openBatch(o);
   if (!list) return failed(list.error());
-  const Result<batch::Merged> merged = batch::mergeBatch(list.value());
+  const Result<batch::Merged> merged = batch::mergeBatch(list.value(), thisProgram());
   if (!merged) return failed(merged.error(), kFailed);
   const batch::Merged& m = merged.value();
   printWarnings(m.remarks);
   for (const batch::Film& film : m.films) {
     if (film.file.empty()) printNotes({fmt::format("no ffmpeg here; to make the film: {}", film.command)});
+  }
+  for (const batch::Whole& whole : m.wholes) {
+    if (!whole.missing.empty()) printWarnings({fmt::format("{}: {}", whole.group, whole.missing)});
+    if (!whole.command.empty()) printNotes({fmt::format("{}: to go on: {}", whole.group, whole.command)});
   }
   for (const batch::SeedMean& mean : m.means)
     fmt::print("{}: mean of {} seeds, standard error {:.3g} % of the mean luminance\n", mean.group, mean.seeds,

@@ -19,8 +19,10 @@
 namespace roomlight::cli {
 namespace {
 
+constexpr size_t kMostParts = 100000;
+
 struct OptimiseOptions {
-  std::string home, study, folder, method = "hybrid", quality, seed;
+  std::string home, study, folder, method = "hybrid", quality, seed, part;
   std::vector<std::string> baselines;
   std::optional<int> threads, evaluations, certify;
   std::optional<float> metresPerUnit;
@@ -68,6 +70,27 @@ void printFront(const optimise::Report& report) {
   }
 }
 
+// I of N, as --part takes it: from 1.
+Status readPart(const std::string& text, optimise::RunWish& wish) {
+  const size_t slash = std::min(text.find('/'), text.size());
+  const auto part = parseNumber<size_t>(std::string_view(text).substr(0, slash));
+  const auto parts = parseNumber<size_t>(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  if (!part || !parts || *part < 1 || *part > *parts || *parts > kMostParts)
+    return Error{fmt::format("--part {}: write I/N, such as 2/8: the second of eight", text)};
+  wish.part = *part - 1, wish.parts = *parts;
+  return Ok{};
+}
+
+int stoppedOptimise() { return failed("interrupted; started again with the same folder, it goes on", kInterrupted); }
+
+// Home and study are read; a part of the response is found.
+int workPart(const OptimiseOptions& o, optimise::Run& run, Stages& stages, ProgressDisplay& display) {
+  if (const Status s = run.respondPart(stages); !s) return failed(s.error());
+  if (run.stopped()) return stoppedOptimise();
+  display.line(fmt::format("when all parts are there, go on with the same command without --part {}", o.part));
+  return kOk;
+}
+
 int workOptimise(const OptimiseOptions& o, const optimise::RunWish& wish) {
   ProgressDisplay display(o.quiet);
   SearchLine searching(o.quiet);
@@ -75,9 +98,6 @@ int workOptimise(const OptimiseOptions& o, const optimise::RunWish& wish) {
       [&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
   RenderStats stats;
   Stages stages(progress, stats);
-  const auto stopped = [] {
-    return failed("interrupted; started again with the same folder, it goes on", kInterrupted);
-  };
   optimise::Run run(wish, {[&](const std::string& line) { display.line(line); },
                            [](const std::string& warning) { printWarnings({warning}); },
                            [&](const char* method, const search::State& s, double hypervolume, bool last) {
@@ -85,19 +105,20 @@ int workOptimise(const OptimiseOptions& o, const optimise::RunWish& wish) {
                            }});
   const Status read = stages.run("load", [&](const Progress&) { return run.read(); });
   if (!read) return failed(read.error());
-  if (run.stopped()) return stopped();
+  if (run.stopped()) return stoppedOptimise();
+  if (!o.part.empty()) return workPart(o, run, stages, display);
   if (const Status s = run.respond(stages); !s) return failed(s.error());
-  if (run.stopped()) return stopped();
+  if (run.stopped()) return stoppedOptimise();
   if (const Status s = run.searchAll(); !s) return failed(s.error());
   // Stopped amid the search there is a front all the same: it is written, without certificates.
-  if (run.report().front.size() == 0) return stopped();
+  if (run.report().front.size() == 0) return stoppedOptimise();
   if (const Status s = run.propose(); !s) return failed(s.error(), kFailed);
   const Status certified = run.certifyAll(stages);
   if (const Status s = run.write(reportPlots()); !s) return failed(s.error(), kFailed);
   if (!certified) return failed(certified.error(), kFailed);
   printFront(run.report());
   display.line(fmt::format("wrote {}", (wish.folder / "index.html").string()));
-  return run.stopped() ? stopped() : kOk;
+  return run.stopped() ? stoppedOptimise() : kOk;
 }
 
 // What the command line asks for.
@@ -105,6 +126,9 @@ Result<optimise::RunWish> wishOf(const OptimiseOptions& o) {
   optimise::RunWish wish;
   wish.home = o.home, wish.metresPerUnit = o.metresPerUnit, wish.study = o.study, wish.folder = o.folder,
   wish.seconds = o.seconds, wish.certified = o.certify, wish.stop = &interrupted();
+  if (!o.part.empty()) {
+    if (const Status s = readPart(o.part, wish); !s) return Error{s.error()};
+  }
   if (o.evaluations) wish.evaluations = static_cast<size_t>(*o.evaluations);
   if (!o.quality.empty()) {
     if (const Status s = applyQuality(o.quality, wish.render); !s) return Error{"--" + s.error()};
@@ -123,10 +147,23 @@ Result<optimise::RunWish> wishOf(const OptimiseOptions& o) {
   return wish;
 }
 
+// Beside others that find theirs in the same folder: nothing is held.
+int runPart(const OptimiseOptions& o, const optimise::RunWish& wish) {
+  std::error_code code;
+  std::filesystem::create_directories(wish.folder, code);
+  if (code) return failed(cannotWrite(wish.folder, code.value()).message);
+  const std::filesystem::path file = wish.folder / optimise::Run::partFile(wish.part, wish.parts);
+  if (const Status s = checkWritable(file); !s) return failed(s.error());
+  int result = kFailed;
+  withThreads(o.threads.value_or(0), [&] { result = workOptimise(o, wish); });
+  return result;
+}
+
 int runOptimise(const OptimiseOptions& o) {
   interrupted();  // from here on Ctrl-C is ours
   const Result<optimise::RunWish> wish = wishOf(o);
   if (!wish) return failed(wish.error());
+  if (!o.part.empty()) return runPart(o, wish.value());
   // Held until all is written; where nothing was, the folder goes again.
   const Result<HeldFolder> held = holdFolder(o.folder);
   if (!held) return failed(held.error());
@@ -165,6 +202,9 @@ Registered addOptimise(CLI::App& program) {
   app->add_option("--seconds", o->seconds, "End the search after so long; 0: never")->check(CLI::Range(0.0, 1e6));
   app->add_option("--certify", o->certify, "Designs that are solved in full, instead of the study's")
       ->check(CLI::Range(0, 1000));
+  app->add_option("--part", o->part,
+                  "I/N: of the response, which takes most of the time, only this part; once N processes have found "
+                  "theirs in the same folder, the command without --part goes on");
   app->add_option("--quality", o->quality, listed("How much is done for light:", qualities()));
   app->add_option("--metres-per-unit", o->metresPerUnit,
                   "Length of the home's unit in metres; without it the file's, or guessed")

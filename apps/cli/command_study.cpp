@@ -31,7 +31,7 @@ struct StudyOptions {
   std::vector<std::string> techniques, externals;
   int runs = 3, walkFrames = StudySettings().walkFrames;
   double mostSeconds = 60, referenceSeconds = 240;
-  bool quick = false, quiet = false;
+  bool quick = false, quiet = false, reportOnly = false;
 };
 
 constexpr int kLeastPixels = 16, kMostPixels = 16384;
@@ -69,6 +69,23 @@ Result<ExternalPicture> readExternal(const std::string& text) {
   return e;
 }
 
+// What --only leaves of the plan: the view or walk of this name; where none is, all whose name holds the text, and
+// walks of their scenes.
+Status narrowToOnly(const std::string& only, StudyPlan& plan) {
+  const std::vector<std::string> names = partsOf(plan);
+  const bool isName = std::find(names.begin(), names.end(), only) != names.end();
+  const auto isMeant = [&](const std::string& name) {
+    return isName ? name == only : name.find(only) != std::string::npos;
+  };
+  for (StudyScene& s : plan.scenes) {
+    std::erase_if(s.lights, [&](const StudyLight& light) { return !isMeant(viewName(s, light)); });
+    if (!isMeant(walkName(s)) && (isName || s.lights.empty())) s.walk.clear();
+  }
+  std::erase_if(plan.scenes, [](const StudyScene& s) { return s.lights.empty() && s.walk.empty(); });
+  if (plan.scenes.empty()) return Error{fmt::format("--only {}: no SCENE/LIGHT holds this", only)};
+  return Ok{};
+}
+
 // What is left of the plan after --technique, --only and --quick.
 Status narrow(const StudyOptions& o, StudyPlan& plan) {
   if (!o.techniques.empty()) {
@@ -83,16 +100,10 @@ Status narrow(const StudyOptions& o, StudyPlan& plan) {
     }
     plan.techniques = kept;
   }
-  for (StudyScene& s : plan.scenes) {
-    std::erase_if(s.lights, [&](const StudyLight& light) {
-      return (s.name + "/" + light.name).find(o.only) == std::string::npos;
-    });
-  }
-  std::erase_if(plan.scenes, [](const StudyScene& s) { return s.lights.empty(); });
-  if (plan.scenes.empty()) return Error{fmt::format("--only {}: no SCENE/LIGHT holds this", o.only)};
+  if (const Status s = narrowToOnly(o.only, plan); !s) return s;
   if (!o.quick) return Ok{};
   plan.scenes.resize(std::min<size_t>(plan.scenes.size(), 2));
-  for (StudyScene& s : plan.scenes) s.lights.resize(1);
+  for (StudyScene& s : plan.scenes) s.lights.resize(std::min<size_t>(s.lights.size(), 1));
   for (size_t i = 1; i < plan.scenes.size(); ++i) plan.scenes[i].walk.clear();
   return Ok{};
 }
@@ -216,6 +227,28 @@ class Programs {
   int walkFrames_;
 };
 
+// What measured all that is in the folder, where nothing more is measured; else this program on this machine, which is
+// kept.
+Status knowMachine(const RunStore& store, bool reportOnly, StudySettings& settings) {
+  const RunStore::Key key{{"machine"}, ""};
+  if (!reportOnly) return store.keep(key, {{"program", settings.program}});
+  const auto kept = store.find(key);
+  if (!kept || !kept->contains("program") || !(*kept)["program"].is_string())
+    return Error{fmt::format("{}: holds nothing that was measured", store.folder().string())};
+  settings.program = (*kept)["program"].get<std::string>();
+  return Ok{};
+}
+
+StudyTools toolsOf(const Programs& programs, bool reportOnly) {
+  if (!reportOnly) {
+    return {[&](const StudyRender& r) { return programs.render(r); },
+            [&](const StudyWalk& w) { return programs.walk(w); }};
+  }
+  const Error missing{"was not measured"};
+  return {[missing](const StudyRender&) { return Result<RenderCost>(missing); },
+          [missing](const StudyWalk&) { return Result<WalkCost>(missing); }};
+}
+
 // One line that says how far it is, on a terminal over the last one.
 class Line {
  public:
@@ -307,23 +340,23 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
       return failed(s.error());
   }
   if (const Status s = narrow(o, plan.value()); !s) return failed(s.error());
-  const Result<StudySettings> settings = settingsOf(o);
+  Result<StudySettings> settings = settingsOf(o);
   if (!settings) return failed(settings.error());
   if (const Status s = checkExternals(plan.value(), settings.value()); !s) return failed(s.error());
   double load = 0;
   getloadavg(&load, 1);
-  if (load > 0.7 && !o.quiet)
+  if (load > 0.7 && !o.quiet && !o.reportOnly)
     printWarnings({fmt::format("the machine is busy (load {:.1f}): times will be longer than they need be", load)});
 
   const std::filesystem::path folder = o.folder;
   const Result<RunStore> store = RunStore::open(folder / "runs");
   if (!store) return failed(store.error(), kFailed);
+  if (const Status s = knowMachine(store.value(), o.reportOnly, settings.value()); !s) return failed(s.error());
   if (const Status s = writeDimLamps(plan.value(), store.value()); !s) return failed(s.error());
   if (const Status s = checkWalks(plan.value(), store.value(), settings.value().program); !s) return failed(s.error());
   const StudyHeader header = headerOf(settings.value(), plan.value(), load);
   const Programs programs(store.value().folder(), settings.value().walkFrames);
-  const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); },
-                         [&](const StudyWalk& w) { return programs.walk(w); }};
+  const StudyTools tools = toolsOf(programs, o.reportOnly);
   const std::string plots = reportPlots();
   Status written = Ok{};
   Result<StudyResults> results = Error{""};
@@ -363,7 +396,9 @@ Registered addStudy(CLI::App& program) {
   app->add_option("--technique", o->techniques, "Only this one of the plan's, by its name; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--only", o->only, "Only where SCENE/LIGHT holds this text");
+  app->add_option("--only", o->only,
+                  "Only the view SCENE/LIGHT or the walk SCENE/walk of this name; else views whose names hold this "
+                  "text, and walks of their scenes");
   app->add_option("--runs", o->runs, "Runs of every picture, in turn with the others; the median time counts")
       ->capture_default_str()
       ->check(CLI::Range(1, 100));
@@ -384,6 +419,7 @@ Registered addStudy(CLI::App& program) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_flag("--quick", o->quick, "Two scenes in their first light, small: whether all works, in minutes");
+  app->add_flag("--report-only", o->reportOnly, "Measure nothing: write the reports of what the folder holds");
   app->add_flag("--quiet", o->quiet, "Only errors");
   app->footer(
       "Ctrl-C stops; the same command goes on where it was.\n"

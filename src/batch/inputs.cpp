@@ -23,10 +23,10 @@ std::string extensionOf(const fs::path& file) {
   return e;
 }
 
-// Texts between double quotes that could be names of files.
-void addQuoted(std::string_view text, std::set<std::string>& names) {
-  for (size_t from = text.find('"'); from != std::string_view::npos; from = text.find('"', from + 1)) {
-    const size_t end = text.find('"', from + 1);
+// Texts between quotes of this kind that could be names of files.
+void addQuoted(std::string_view text, char quote, std::set<std::string>& names) {
+  for (size_t from = text.find(quote); from != std::string_view::npos; from = text.find(quote, from + 1)) {
+    const size_t end = text.find(quote, from + 1);
     if (end == std::string_view::npos) return;
     const std::string_view name = text.substr(from + 1, end - from - 1);
     if (name.size() <= kLongestName && name.find('.') != std::string_view::npos) names.emplace(name);
@@ -55,7 +55,8 @@ std::set<std::string> namesIn(const fs::path& file) {
   std::error_code code;
   if ((!quoted && !lines) || fs::file_size(file, code) > kLargestText || code) return names;
   const std::string text = textOf(file);
-  if (quoted) addQuoted(text, names);
+  if (quoted) addQuoted(text, '"', names);
+  if (e == ".toml") addQuoted(text, '\'', names);
   if (lines) addModelLines(text, names);
   return names;
 }

@@ -54,7 +54,10 @@ double rateOf(const Folder& folder, const Task& task) {
 
 class Merger {
  public:
-  explicit Merger(const TaskList& list) : list_(list), folder_(list.folder().merged()) { out_.tasks = list.size(); }
+  Merger(const TaskList& list, const fs::path& program)
+      : list_(list), program_(program), folder_(list.folder().merged()) {
+    out_.tasks = list.size();
+  }
 
   Result<Merged> merge() {
     std::error_code code;
@@ -139,6 +142,8 @@ class Merger {
       Frames& frames = films_[done.task.group];
       if (frames.files.empty()) frames.rate = rateOf(list_.folder(), done.task);
       frames.files.insert(frames.files.end(), done.files.begin(), done.files.end());
+    } else if (done.task.kind == "optimise" || done.task.kind == "study") {
+      parts_[done.task.group].push_back(done);
     } else if (done.task.kind == "measure") {
       return addReadings(done);
     } else {
@@ -191,6 +196,11 @@ class Merger {
     }
     for (const auto& [group, frames] : films_)
       out_.films.push_back(makeFilm(group, frames.files, frames.rate, folder_, "film_" + names_.of(group)));
+    for (const auto& [group, tasks] : parts_) {
+      const std::string name = folders_.of(group);
+      out_.wholes.push_back(tasks.front().task.kind == "study" ? joinStudy(list_.folder(), tasks, name, program_)
+                                                               : joinResponse(list_.folder(), tasks, name));
+    }
     for (SheetMaker& maker : sheets_) {
       if (const Status s = maker.finish(); !s) return s;
       out_.sheets.insert(out_.sheets.end(), maker.sheets().begin(), maker.sheets().end());
@@ -221,11 +231,13 @@ class Merger {
   };
 
   const TaskList& list_;
+  const fs::path& program_;
   const fs::path folder_;
   std::ofstream figures_, readings_;
-  FileNames names_;
+  FileNames names_, folders_;
   std::map<std::string, std::vector<fs::path>> means_;
   std::map<std::string, Frames> films_;
+  std::map<std::string, std::vector<DoneTask>> parts_;
   std::vector<SheetMaker> sheets_;
   std::vector<size_t> onSheets_;  // pictures of a section
   Merged out_;
@@ -246,6 +258,6 @@ std::string FileNames::of(const std::string& text) {
   return count == 1 ? name : fmt::format("{}_{}", name, count);
 }
 
-Result<Merged> mergeBatch(const TaskList& list) { return Merger(list).merge(); }
+Result<Merged> mergeBatch(const TaskList& list, const fs::path& program) { return Merger(list, program).merge(); }
 
 }  // namespace roomlight::batch

@@ -42,19 +42,31 @@ struct Film {
   size_t frames = 0;
 };
 
+// Of the parts of a long command, in a folder of `merged`.
+struct Whole {
+  std::string group, file;  // what to open or to go on with; empty: not all of it is there
+  std::string command;      // what goes on with it; empty: nothing is left to do
+  std::string missing;      // why there is no file
+};
+
 struct Merged {
   size_t tasks = 0, done = 0, failed = 0;
   double workSeconds = 0;
   std::vector<SeedMean> means;
   std::vector<Sheet> sheets;
   std::vector<Film> films;
+  std::vector<Whole> wholes;
   std::vector<std::pair<std::string, std::string>> failures;  // task, line
   std::vector<std::string> remarks;  // of what could not be read or made
   bool hasReadings = false;          // readings.csv is there
 };
 
-// Puts together what is done so far into the folder `merged`. The error is of files that cannot be written.
-Result<Merged> mergeBatch(const TaskList& list);
+// Puts together what is done so far into the folder `merged`; `program` writes the reports of studies. The error is of
+// files that cannot be written.
+Result<Merged> mergeBatch(const TaskList& list, const std::filesystem::path& program);
+
+// As one word of a shell's command.
+std::string quotedForShell(const std::string& text);
 
 // Names for files that differ from one another.
 class FileNames {
@@ -88,6 +100,13 @@ class SheetMaker {
 // `frames`: of one film, in order. `list`: name of the list that ffmpeg reads.
 Film makeFilm(const std::string& group, const std::vector<std::filesystem::path>& frames, double framesPerSecond,
               const std::filesystem::path& folder, const std::string& name);
+
+// `tasks`: of one group, those that are done. `name`: of a folder in `merged`. The response of all candidates, with
+// which `optimise` goes on.
+Whole joinResponse(const Folder& folder, const std::vector<DoneTask>& tasks, const std::string& name);
+// The study with what all its tasks have measured; its reports are written by `program`.
+Whole joinStudy(const Folder& folder, const std::vector<DoneTask>& tasks, const std::string& name,
+                const std::filesystem::path& program);
 
 std::string mergedPage(const TaskList& list, const Merged& merged);
 

@@ -41,6 +41,17 @@ std::string filmsHtml(const std::vector<Film>& films) {
   return out.empty() ? out : "<h2>Films</h2>" + out;
 }
 
+std::string wholesHtml(const std::vector<Whole>& wholes) {
+  if (wholes.empty()) return {};
+  report::Table table({"", "<result", "<how to go on"});
+  for (const Whole& w : wholes) {
+    const std::string note = w.missing.empty() ? "" : escaped(w.missing);
+    const std::string command = w.command.empty() ? "" : "<code>" + escaped(w.command) + "</code>";
+    table.row({escaped(w.group), link(w.file), command + note});
+  }
+  return "<h2>Studies and designs</h2>" + table.wideHtml();
+}
+
 std::string failuresHtml(const Merged& merged) {
   std::string out;
   if (!merged.failures.empty()) {
@@ -66,7 +77,7 @@ std::string mergedPage(const TaskList& list, const Merged& m) {
   body += report::factsHtml(facts);
   body +=
       "<p>All figures: " + link("figures.csv") + (m.hasReadings ? "; readings: " + link("readings.csv") : "") + "</p>";
-  body += meansHtml(m.means) + sheetsHtml(m.sheets) + filmsHtml(m.films) + failuresHtml(m);
+  body += meansHtml(m.means) + sheetsHtml(m.sheets) + filmsHtml(m.films) + wholesHtml(m.wholes) + failuresHtml(m);
   return report::page(list.info().name, "img,video{max-width:100%}", body);
 }
 

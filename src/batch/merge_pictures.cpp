@@ -54,12 +54,6 @@ Result<Image> smallPicture(const fs::path& file) {
   return displayed(small, look, White(), ev100Of(look, small));
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 }  // namespace
 
 Status SheetMaker::add(const fs::path& picture) {
@@ -103,7 +97,7 @@ Film makeFilm(const std::string& group, const std::vector<fs::path>& frames, dou
   film.command = fmt::format(
       "ffmpeg -y -loglevel error -f concat -safe 0 -i {} -r {:g} -pix_fmt yuv420p -vf "
       "'pad=ceil(iw/2)*2:ceil(ih/2)*2' {}",
-      quoted(listFile.string()), framesPerSecond, quoted((folder / film.file).string()));
+      quotedForShell(listFile.string()), framesPerSecond, quotedForShell((folder / film.file).string()));
   const bool written = static_cast<bool>(writeDurably(listFile, list));
   const std::string quietly = "command -v ffmpeg >/dev/null 2>&1 && " + film.command + " </dev/null >/dev/null 2>&1";
   if (!written || std::system(quietly.c_str()) != 0) film.file.clear();

@@ -26,10 +26,28 @@ bool viewKeys(const TomlPlace& table, std::initializer_list<const char*> more) {
   return knowsKeys(table, keys);
 }
 
+// So many cameras a task, which share its light in memory.
+void groupCameras(const TomlPlace& table, Section& out) {
+  const size_t each = static_cast<size_t>(table["camerasPerTask"].whole(1, 10000));
+  if (table.has("shareLight"))
+    table["shareLight"].fail("cameras of one task share their light as they are; leave it out");
+  if (out.axes.back().name != "camera") return table["camerasPerTask"].fail("needs cameras");
+  std::vector<AxisValue> groups;
+  for (size_t i = 0; i < out.axes.back().values.size(); ++i) {
+    const AxisValue& camera = out.axes.back().values[i];
+    if (i % each == 0) groups.push_back({});
+    AxisValue& group = groups.back();
+    group.label += (group.label.empty() ? "" : ", ") + camera.label;
+    group.words.insert(group.words.end(), camera.words.begin(), camera.words.end());
+  }
+  out.axes.back().values = std::move(groups);
+}
+
 void readView(const TomlPlace& table, const PlanPaths& paths, Section& out) {
   out.words = {"render"};
   readHomes(table, paths, out);
   readCameras(table, out);
+  if (table.has("camerasPerTask")) groupCameras(table, out);
   readLights(table, paths, out);
   readTechniques(table, out);
 }
@@ -51,7 +69,7 @@ void shareLight(const TomlPlace& table, Section& out) {
 }
 
 void readPictures(const TomlPlace& table, const PlanPaths& paths, Section& out) {
-  if (!viewKeys(table, {"techniques", "output", "shareLight"})) return;
+  if (!viewKeys(table, {"techniques", "output", "shareLight", "camerasPerTask"})) return;
   readView(table, paths, out);
   if (table.flag("shareLight", false)) shareLight(table, out);
   readSeeds(table, false, out);
@@ -193,7 +211,8 @@ void readCommands(const TomlPlace& table, const PlanPaths&, Section& out) {
 const std::vector<SectionKind>& sectionKinds() {
   static const std::vector<SectionKind> kinds = {{"pictures", readPictures},     {"walks", readWalks},
                                                  {"references", readReferences}, {"layers", readLayers},
-                                                 {"measure", readMeasure},       {"commands", readCommands}};
+                                                 {"measure", readMeasure},       {"optimise", readOptimise},
+                                                 {"study", readStudy},           {"commands", readCommands}};
   return kinds;
 }
 

@@ -13,4 +13,8 @@ struct SectionKind {
 };
 const std::vector<SectionKind>& sectionKinds();
 
+// Long commands that are cut: their tasks are parts of one result, which merge puts together.
+void readOptimise(const optimise::TomlPlace& table, const PlanPaths& paths, Section& out);
+void readStudy(const optimise::TomlPlace& table, const PlanPaths& paths, Section& out);
+
 }  // namespace roomlight::batch

@@ -60,101 +60,96 @@ MeterSettings metersOf(const ResponseSettings& settings) {
   return m;
 }
 
-// All that the response is found from, and what is found.
-struct Task {
-  const Scene& home;
-  const StudyFile& study;
-  const Candidates& candidates;
-  const Meters& meters;
-  const ResponseSettings& settings;
-  Stages& stages;
-  Response out;
-  std::vector<float> errorsLux;  // standard errors of candidate c at point i: errorsLux[c * points + i]
-};
-
 EyeGlare glareOf(const Lamp& lamp, const RayScene& rays, const Eye& eye) {
   const SeenLamp seen = seenLamp(rays, lamp, eye.position, eye.direction);
   return {seen.directLux, seen.source ? glareTerm({&*seen.source, 1}, eye.direction) : 0};
 }
 
-Status addBase(Task& t, const Condition& condition) {
-  Base base;
-  base.lux.assign(t.meters.elements.size(), {}), base.glare.assign(t.study.eyes.size(), {});
-  const Result<Scene> scene = litBy(t.home, t.study, condition.daylight, json::array(), true);
+// Of a condition without candidates. Empty where cancelled.
+Result<std::optional<ResponseItem>> findBase(const ResponseProblem& p, const Condition& condition, Stages& stages) {
+  ResponseItem base;
+  base.lux.assign(p.meters.elements.size(), {}), base.glare.assign(p.study.eyes.size(), {});
+  const Result<Scene> scene = litBy(p.home, p.study, condition.daylight, json::array(), true);
   if (!scene) return Error{scene.error()};
   if (hasLight(scene.value())) {
     const Result<std::unique_ptr<LitScene>> lit =
-        lightScene(scene.value(), t.settings.render, t.stages, {.changes = false});
+        lightScene(scene.value(), p.settings.render, stages, {.changes = false});
     if (!lit) return Error{lit.error()};
-    if (!lit.value()) return Ok{};
-    const auto readings = t.stages.run("meters: " + condition.name, [&](const Progress& p) {
-      return lit.value()->illuminance(t.meters.elements, fullMeters(t.settings.render.seed), p);
+    if (!lit.value()) return std::optional<ResponseItem>();
+    const auto readings = stages.run("meters: " + condition.name, [&](const Progress& progress) {
+      return lit.value()->illuminance(p.meters.elements, fullMeters(p.settings.render.seed), progress);
     });
     for (size_t i = 0; i < readings.size(); ++i) base.lux[i] = readings[i].illuminanceLux;
-    for (size_t e = 0; e < t.study.eyes.size(); ++e) {
-      const SeenLamps seen = seenLamps(lit.value()->rays(), t.study.eyes[e].position, t.study.eyes[e].direction);
-      base.glare[e] = {seen.directLux, glareTerm(seen.sources, t.study.eyes[e].direction)};
+    for (size_t e = 0; e < p.study.eyes.size(); ++e) {
+      const SeenLamps seen = seenLamps(lit.value()->rays(), p.study.eyes[e].position, p.study.eyes[e].direction);
+      base.glare[e] = {seen.directLux, glareTerm(seen.sources, p.study.eyes[e].direction)};
     }
   }
-  t.out.base.push_back(std::move(base));
-  return Ok{};
+  return stages.cancelled() ? std::optional<ResponseItem>() : std::optional(std::move(base));
 }
 
 // Candidates as lamps of a lighting file, each a layer of its own.
-json layersOf(const Task& t, size_t first, size_t count) {
+json layersOf(const ResponseProblem& p, size_t first, size_t count) {
   json lamps = json::array();
   for (size_t c = first; c < first + count; ++c) {
-    const Candidate& candidate = t.candidates.candidates[c];
-    json lamp = lampEntry(t.study.catalogue.luminaires[candidate.luminaire], candidate.position, candidate.direction);
+    const Candidate& candidate = p.candidates.candidates[c];
+    json lamp = lampEntry(p.study.catalogue.luminaires[candidate.luminaire], candidate.position, candidate.direction);
     lamp["group"] = fmt::format("{}", c);
     lamps.push_back(lamp);
   }
   return lamps;
 }
 
-// A group of candidates in one solution.
-Status addGroup(Task& t, size_t first, size_t count) {
-  const Result<Scene> scene = litBy(t.home, t.study, nullptr, layersOf(t, first, count), false);
+// Of candidates in one solution. Empty where cancelled.
+Result<std::optional<ResponseItem>> findGroup(const ResponseProblem& p, size_t first, size_t count, Stages& stages) {
+  const ResponseSizes sizes = sizesOf(p);
+  const Result<Scene> scene = litBy(p.home, p.study, nullptr, layersOf(p, first, count), false);
   if (!scene) return Error{scene.error()};
-  RenderSettings render = t.settings.render;
+  RenderSettings render = p.settings.render;
   render.technique = technique::kHybrid, render.layers = true;
-  const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, t.stages, {.changes = false});
+  const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, stages, {.changes = false});
   if (!lit) return Error{lit.error()};
-  if (!lit.value()) return Ok{};
+  if (!lit.value()) return std::optional<ResponseItem>();
   const LightLayers* layers = lit.value()->layers();
   if (!layers || layers->size() != count)
     return Error{"candidates could not be told apart: something in the home shines that is neither lamp nor emission"};
-  const LayeredReadings readings = t.stages.run("response", [&](const Progress& p) {
-    return lit.value()->illuminanceInLayers(t.meters.elements, metersOf(t.settings), p);
+  const LayeredReadings readings = stages.run("response", [&](const Progress& progress) {
+    return lit.value()->illuminanceInLayers(p.meters.elements, metersOf(p.settings), progress);
   });
-  if (t.stages.cancelled()) return Ok{};
+  if (stages.cancelled()) return std::optional<ResponseItem>();
+  ResponseItem out{first, count, {}, {}, {}};
+  out.lux.resize(count * sizes.elements), out.errorsLux.resize(count * sizes.points);
+  out.glare.resize(count * sizes.eyes);
   for (size_t l = 0; l < count; ++l) {
-    const size_t c = static_cast<size_t>(std::stoul(layers->layers[l].name));
-    for (size_t i = 0; i < t.out.elements; ++i) t.out.lux[c * t.out.elements + i] = readings.at(i, l);
-    for (size_t i = 0; i < t.meters.points(); ++i)
-      t.errorsLux[c * t.meters.points() + i] = readings.standardErrorLux[i * readings.layers + l];
+    const size_t c = static_cast<size_t>(std::stoul(layers->layers[l].name)) - first;
+    for (size_t i = 0; i < sizes.elements; ++i) out.lux[c * sizes.elements + i] = readings.at(i, l);
+    for (size_t i = 0; i < sizes.points; ++i)
+      out.errorsLux[c * sizes.points + i] = readings.standardErrorLux[i * readings.layers + l];
     // The last lamps of the scene are the candidates'.
-    const Lamp& lamp = scene.value().lamps[scene.value().lamps.size() - count + (c - first)];
-    for (size_t e = 0; e < t.out.eyes; ++e)
-      t.out.glare[c * t.out.eyes + e] = glareOf(lamp, lit.value()->rays(), t.study.eyes[e]);
+    const Lamp& lamp = scene.value().lamps[scene.value().lamps.size() - count + c];
+    for (size_t e = 0; e < sizes.eyes; ++e)
+      out.glare[c * sizes.eyes + e] = glareOf(lamp, lit.value()->rays(), p.study.eyes[e]);
   }
-  return Ok{};
+  return std::optional(std::move(out));
 }
 
 // Of candidates that matter at a point, the largest error relative to what they give it.
-float worstErrorPercent(const Task& t) {
-  const size_t n = t.candidates.candidates.size(), points = t.meters.points();
+float worstErrorPercent(const ResponseSizes& sizes, const Response& r, const std::vector<float>& errorsLux) {
   float worst = 0;
-  for (size_t i = 0; i < points; ++i) {
-    const auto luxOf = [&](size_t c) { return luminance(t.out.lux[c * t.out.elements + i]); };
+  for (size_t i = 0; i < sizes.points; ++i) {
+    const auto luxOf = [&](size_t c) { return luminance(r.lux[c * r.elements + i]); };
     float strongest = 0;
-    for (size_t c = 0; c < n; ++c) strongest = std::max(strongest, luxOf(c));
-    for (size_t c = 0; c < n; ++c) {
+    for (size_t c = 0; c < sizes.candidates; ++c) strongest = std::max(strongest, luxOf(c));
+    for (size_t c = 0; c < sizes.candidates; ++c) {
       if (strongest > 0 && luxOf(c) >= kThatMatters * strongest)
-        worst = std::max(worst, 100 * t.errorsLux[c * points + i] / luxOf(c));
+        worst = std::max(worst, 100 * errorsLux[c * sizes.points + i] / luxOf(c));
     }
   }
   return worst;
+}
+
+size_t groupCount(const ResponseProblem& p) {
+  return (p.candidates.candidates.size() + p.settings.atOnce - 1) / p.settings.atOnce;
 }
 
 }  // namespace
@@ -209,27 +204,35 @@ Status checkConditions(const Scene& home, const StudyFile& study) {
   return Ok{};
 }
 
-Result<std::optional<Response>> findResponse(const Scene& home, const StudyFile& study, const Candidates& candidates,
-                                             const Meters& meters, const ResponseSettings& settings, Stages& stages) {
-  const Stopwatch watch;
-  Task t{home, study, candidates, meters, settings, stages, {}, {}};
-  const size_t n = candidates.candidates.size();
-  t.out.elements = meters.elements.size(), t.out.eyes = study.eyes.size();
-  t.out.lux.resize(n * t.out.elements), t.out.glare.resize(n * t.out.eyes), t.errorsLux.resize(n * meters.points());
-  const size_t groups = (n + settings.atOnce - 1) / settings.atOnce;
-  for (size_t g = 0; g < groups; ++g) {
-    const size_t first = g * n / groups, end = (g + 1) * n / groups;
-    if (const Status s = addGroup(t, first, end - first); !s) return Error{s.error()};
-    if (stages.cancelled()) return std::optional<Response>();
+ResponseSizes sizesOf(const ResponseProblem& p) {
+  return {p.candidates.candidates.size(), p.meters.elements.size(), p.study.eyes.size(), p.study.conditions.size(),
+          p.meters.points()};
+}
+
+size_t itemCount(const ResponseProblem& p) { return groupCount(p) + p.study.conditions.size(); }
+
+Result<std::optional<ResponseItem>> findItem(const ResponseProblem& p, size_t item, Stages& stages) {
+  const size_t groups = groupCount(p), n = p.candidates.candidates.size();
+  if (item >= groups) return findBase(p, p.study.conditions[item - groups], stages);
+  const size_t first = item * n / groups, end = (item + 1) * n / groups;
+  return findGroup(p, first, end - first, stages);
+}
+
+Response responseOf(const ResponseSizes& sizes, const std::vector<ResponseItem>& items) {
+  Response out;
+  out.elements = sizes.elements, out.eyes = sizes.eyes;
+  std::vector<float> errorsLux;
+  for (const ResponseItem& item : items) {
+    if (item.count == 0) {
+      out.base.push_back({item.lux, item.glare});
+      continue;
+    }
+    out.lux.insert(out.lux.end(), item.lux.begin(), item.lux.end());
+    out.glare.insert(out.glare.end(), item.glare.begin(), item.glare.end());
+    errorsLux.insert(errorsLux.end(), item.errorsLux.begin(), item.errorsLux.end());
   }
-  t.out.worstErrorPercent = worstErrorPercent(t);
-  t.out.seconds = watch.seconds();
-  for (const Condition& condition : study.conditions) {
-    if (const Status s = addBase(t, condition); !s) return Error{s.error()};
-    if (stages.cancelled()) return std::optional<Response>();
-  }
-  t.out.baseSeconds = watch.seconds() - t.out.seconds;
-  return std::optional<Response>(std::move(t.out));
+  out.worstErrorPercent = worstErrorPercent(sizes, out, errorsLux);
+  return out;
 }
 
 }  // namespace roomlight::optimise

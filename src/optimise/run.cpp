@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/hash.h"
@@ -99,42 +100,107 @@ Status Run::read() {
   return Ok{};
 }
 
-Status Run::respond(Stages& stages) {
-  {
-    const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(home_); });
-    Result<Candidates> candidates = findCandidates(study_, rays);
-    if (!candidates) return Error{candidates.error()};
-    candidates_ = std::move(candidates.value());
-    Result<Meters> meters = placeMeters(study_, rays);
-    if (!meters) return Error{meters.error()};
-    meters_ = std::move(meters.value());
-  }
+// Candidates and meters.
+Status Run::prepare(Stages& stages) {
+  const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(home_); });
+  Result<Candidates> candidates = findCandidates(study_, rays);
+  if (!candidates) return Error{candidates.error()};
+  candidates_ = std::move(candidates.value());
+  Result<Meters> meters = placeMeters(study_, rays);
+  if (!meters) return Error{meters.error()};
+  meters_ = std::move(meters.value());
   news_.line(fmt::format("{} places, {} candidate lamps, {} points, {} eyes", candidates_.places.size(),
                          candidates_.candidates.size(), meters_.points(), study_.eyes.size()));
+  return Ok{};
+}
+
+// From the folder, or found and kept there. Empty where cancelled.
+Result<std::optional<Run::FoundItem>> Run::itemAt(size_t index, Stages& stages) const {
+  const ResponseSizes sizes = sizesOf(problem());
+  const ItemPlace place{index, itemCount(problem())};
+  Result<std::optional<ResponseItem>> known = loadItem(wish_.folder, hash_, sizes, place);
+  if (!known) news_.warning(known.error());
+  if (known && known.value()) return std::optional(FoundItem{std::move(*known.value()), true});
+  Result<std::optional<ResponseItem>> found = findItem(problem(), index, stages);
+  if (!found) return Error{found.error()};
+  if (!found.value()) return std::optional<FoundItem>();
+  Status kept = saveItem(wish_.folder, hash_, sizes, place, *found.value());
+  return std::optional(FoundItem{std::move(*found.value()), false, std::move(kept)});
+}
+
+Result<std::optional<Response>> Run::responseByItems(Stages& stages) {
+  const Stopwatch watch;
+  std::vector<ResponseItem> items;
+  const size_t all = itemCount(problem()), groups = all - study_.conditions.size();
+  size_t known = 0;
+  bool isWarned = false;
+  for (size_t i = 0; i < all; ++i) {
+    Result<std::optional<FoundItem>> found = itemAt(i, stages);
+    if (!found) return Error{found.error()};
+    if (!found.value()) return std::optional<Response>();
+    FoundItem& one = *found.value();
+    if (!one.kept && !std::exchange(isWarned, true)) news_.warning(one.kept.error());
+    items.push_back(std::move(one.item));
+    known += one.isKnown;
+    if (i + 1 == groups) report_.responseSeconds = watch.seconds();
+  }
+  report_.baseSeconds = watch.seconds() - report_.responseSeconds;
+  if (known > 0) news_.line(fmt::format("{} of {} solutions are known from before", known, all));
+  return std::optional(responseOf(sizesOf(problem()), items));
+}
+
+// Once the response is kept whole.
+void Run::removeItems() const {
+  std::error_code ignored;
+  const size_t all = itemCount(problem());
+  for (size_t i = 0; i < all; ++i) std::filesystem::remove(wish_.folder / itemFileName({i, all}), ignored);
+}
+
+Status Run::respond(Stages& stages) {
+  if (const Status s = prepare(stages); !s || stopped()) return s;
   const std::filesystem::path file = wish_.folder / "response.bin";
-  Result<std::optional<Response>> known = loadResponse(
-      file, hash_,
-      {candidates_.candidates.size(), meters_.elements.size(), study_.eyes.size(), study_.conditions.size()});
+  Result<std::optional<Response>> known = loadResponse(file, hash_, sizesOf(problem()));
   if (!known) news_.warning(known.error());
   if (known && known.value()) {
     news_.line("the response of all candidates is known from before");
     response_ = std::move(*known.value());
   } else {
-    ResponseSettings settings;
-    settings.render = wish_.render;
-    Result<std::optional<Response>> found = findResponse(home_, study_, candidates_, meters_, settings, stages);
+    Result<std::optional<Response>> found = responseByItems(stages);
     if (!found) return Error{found.error()};
     if (!found.value()) return Ok{};
     response_ = std::move(*found.value());
     news_.line(fmt::format("response of {} candidates at {} points in {:.1f} s, conditions without them in {:.1f} s",
-                           candidates_.candidates.size(), meters_.points(), response_.seconds, response_.baseSeconds));
-    if (const Status s = saveResponse(file, hash_, response_); !s) news_.warning(s.error());
+                           candidates_.candidates.size(), meters_.points(), report_.responseSeconds,
+                           report_.baseSeconds));
+    const Status saved = saveResponse(file, hash_, response_);
+    if (!saved) news_.warning(saved.error());
+    if (saved) removeItems();
   }
   model_ = makeModel(study_, candidates_, meters_, response_);
-  report_.responseSeconds = response_.seconds, report_.baseSeconds = response_.baseSeconds;
   report_.designsASecond = designsASecond(model_);
   news_.line(fmt::format("{:.0f} designs are evaluated a second", report_.designsASecond));
   return Ok{};
+}
+
+std::string Run::partFile(size_t part, size_t parts) {
+  return fmt::format("part_{:02}_of_{:02}.json", part + 1, parts);
+}
+
+Status Run::respondPart(Stages& stages) {
+  if (const Status s = prepare(stages); !s || stopped()) return s;
+  const size_t all = itemCount(problem());
+  nlohmann::ordered_json solutions = nlohmann::ordered_json::array();
+  for (size_t i = wish_.part; i < all; i += wish_.parts) {
+    const Result<std::optional<FoundItem>> found = itemAt(i, stages);
+    if (!found) return Error{found.error()};
+    if (!found.value()) return Ok{};
+    if (!found.value()->kept) return found.value()->kept;
+    solutions.push_back(i);
+  }
+  const nlohmann::ordered_json told = {
+      {"part", wish_.part + 1}, {"parts", wish_.parts}, {"solutions", solutions}, {"all", all}};
+  news_.line(fmt::format("part {} of {}: {} of {} solutions", wish_.part + 1, wish_.parts, solutions.size(), all));
+  return writeWhole(wish_.folder / partFile(wish_.part, wish_.parts), told.dump() + "\n");
 }
 
 // The hybrid begins with what linear programs over all lamps at once say, and pays for it.

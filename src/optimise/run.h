@@ -1,5 +1,5 @@
 // One run: from a home and a study file to designs on the best trade-offs. Its folder keeps the response and the
- // searches, so that a run that was stopped goes on where it was:
+// searches, so that a run that was stopped goes on where it was:
 //
 //     Run run({.home = "flat.sh3d", .study = "goals.toml", .folder = "out"}, news);
 //     run.read(); run.respond(stages); run.searchAll(); run.propose(); run.certifyAll(stages); run.write();
@@ -27,6 +27,7 @@ struct RunWish {
   std::optional<int> certified;
   std::optional<uint64_t> seed;
   double seconds = 0;                         // of each search at most; 0: none
+  size_t part = 0, parts = 1;                 // of respondPart(): from 0, of so many
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -49,6 +50,11 @@ class Run {
   Status read();
   // Candidates, meters, and what each candidate gives at each of them: from the folder, where it is of the same inputs.
   Status respond(Stages& stages);
+  // A part of the response, for processes that share it by a folder: of all solutions that it takes (ResponseItem)
+  // every one whose number has remainder `part` by `parts`, into files that respond() takes up. Writes how far it came
+  // to partFile() of the wish's folder.
+  Status respondPart(Stages& stages);
+  static std::string partFile(size_t part, size_t parts);  // "part_03_of_08.json"
   // By every method, each going on from the folder. Stopped, those so far; there is a front all the same once the first
   // has begun.
   Status searchAll();
@@ -64,6 +70,16 @@ class Run {
   static constexpr const char* kFiles[] = {"index.html", "run.json", "points.csv", "front.csv"};
 
  private:
+  Status prepare(Stages& stages);
+  ResponseProblem problem() const { return {home_, study_, candidates_, meters_, {.render = wish_.render}}; }
+  struct FoundItem {
+    ResponseItem item;
+    bool isKnown = false;  // the folder had it
+    Status kept = Ok{};  // else: whether it has now
+  };
+  Result<std::optional<FoundItem>> itemAt(size_t index, Stages& stages) const;
+  Result<std::optional<Response>> responseByItems(Stages& stages);
+  void removeItems() const;
   Result<search::State> searchBy(const search::Problem& problem, search::Method method, Trace& trace);
   search::State start(const search::Problem& problem, const search::Settings& settings) const;
   Status writeDesign(search::ConstGenome design, size_t number, Proposed& out) const;

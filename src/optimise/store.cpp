@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include "base/hash.h"
@@ -14,7 +15,8 @@
 namespace roomlight::optimise {
 namespace {
 
-constexpr std::string_view kMagic = "roomlight response 3\n";
+constexpr std::string_view kMagic = "roomlight response 3\n", kItemMagic = "roomlight response item 1\n";
+constexpr size_t kHashSize = 16;  // of inputHash()
 
 template <class T>
 void put(std::string& out, const std::vector<T>& values) {
@@ -77,6 +79,38 @@ std::optional<Response> responseIn(std::string_view bytes, const ResponseSizes& 
   return r;
 }
 
+// What saveItem() writes before the numbers of the item.
+std::vector<uint64_t> headOf(const ResponseSizes& sizes, const ItemPlace& place, const ResponseItem& item) {
+  return {place.index,      place.all,    sizes.candidates, sizes.elements, sizes.eyes,
+          sizes.conditions, sizes.points, item.first,       item.count};
+}
+
+struct KeptItem {
+  std::string hash;
+  ResponseSizes sizes;
+  ItemPlace place;
+  ResponseItem item;
+};
+
+// None where it is something else, or not as many numbers as its sizes say.
+std::optional<KeptItem> itemIn(std::string_view bytes) {
+  if (!bytes.starts_with(kItemMagic) || bytes.size() < kItemMagic.size() + kHashSize) return std::nullopt;
+  KeptItem kept;
+  kept.hash = bytes.substr(kItemMagic.size(), kHashSize);
+  Reader in(bytes.substr(kItemMagic.size() + kHashSize));
+  std::vector<uint64_t> head;
+  in.get(head), in.get(kept.item.lux), in.get(kept.item.errorsLux), in.get(kept.item.glare);
+  if (!in.done() || head.size() != 9) return std::nullopt;
+  kept.place = {head[0], head[1]};
+  kept.sizes = {head[2], head[3], head[4], head[5], head[6]};
+  kept.item.first = head[7], kept.item.count = head[8];
+  const size_t rows = std::max<size_t>(1, kept.item.count);
+  const bool fits = kept.item.lux.size() == rows * kept.sizes.elements &&
+                    kept.item.glare.size() == rows * kept.sizes.eyes &&
+                    kept.item.errorsLux.size() == kept.item.count * kept.sizes.points;
+  return fits ? std::optional(std::move(kept)) : std::nullopt;
+}
+
 }  // namespace
 
 std::string hashOfFile(const std::filesystem::path& file) {
@@ -117,6 +151,52 @@ Result<std::optional<Response>> loadResponse(const std::filesystem::path& file, 
   const std::string head = std::string(kMagic) + hash;
   if (!bytes.value() || !bytes.value()->starts_with(head)) return std::optional<Response>();
   return responseIn(std::string_view(*bytes.value()).substr(head.size()), wanted);
+}
+
+std::string itemFileName(const ItemPlace& place) {
+  return fmt::format("response_{:04}_of_{:04}.item", place.index, place.all);
+}
+
+Status saveItem(const std::filesystem::path& folder, const std::string& hash, const ResponseSizes& sizes,
+                const ItemPlace& place, const ResponseItem& item) {
+  std::string bytes = std::string(kItemMagic) + hash;
+  put(bytes, headOf(sizes, place, item)), put(bytes, item.lux), put(bytes, item.errorsLux), put(bytes, item.glare);
+  return saveSealed(folder / itemFileName(place), std::move(bytes));
+}
+
+Result<std::optional<ResponseItem>> loadItem(const std::filesystem::path& folder, const std::string& hash,
+                                             const ResponseSizes& sizes, const ItemPlace& place) {
+  const Result<std::optional<std::string>> bytes = loadSealed(folder / itemFileName(place));
+  if (!bytes) return Error{bytes.error()};
+  if (!bytes.value()) return std::optional<ResponseItem>();
+  std::optional<KeptItem> kept = itemIn(*bytes.value());
+  if (!kept || kept->hash != hash || kept->sizes != sizes || kept->place != place) return std::optional<ResponseItem>();
+  return std::optional(std::move(kept->item));
+}
+
+Result<size_t> joinItems(const std::vector<std::filesystem::path>& files, const std::filesystem::path& response) {
+  std::map<size_t, KeptItem> items;
+  for (const std::filesystem::path& file : files) {
+    if (file.extension() != ".item") continue;
+    const Result<std::optional<std::string>> bytes = loadSealed(file);
+    if (!bytes) return Error{bytes.error()};
+    std::optional<KeptItem> kept = bytes.value() ? itemIn(*bytes.value()) : std::nullopt;
+    if (!kept) return Error{fmt::format("{}: holds no part of a response", file.string())};
+    const KeptItem& first = items.empty() ? *kept : items.begin()->second;
+    if (kept->hash != first.hash || kept->sizes != first.sizes || kept->place.all != first.place.all)
+      return Error{fmt::format("{}: is of another study than the others", file.string())};
+    items.insert_or_assign(kept->place.index, std::move(*kept));
+  }
+  const size_t all = items.empty() ? 0 : items.begin()->second.place.all;
+  if (items.empty() || items.size() != all)
+    return Error{fmt::format("{} of {} parts of the response are there", items.size(), all)};
+  std::vector<ResponseItem> inOrder;
+  for (auto& [index, kept] : items) inOrder.push_back(std::move(kept.item));
+  const KeptItem& any = items.begin()->second;
+  const Response whole = responseOf(any.sizes, inOrder);
+  if (!isWhole(whole, any.sizes)) return Error{"parts of the response do not fit together"};
+  const Status saved = saveResponse(response, any.hash, whole);
+  return saved ? Result<size_t>(all) : Error{saved.error()};
 }
 
 Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "optimise/response.h"
 #include "scene/scene.h"
@@ -19,12 +20,26 @@ Result<std::string> inputHash(const Scene& home, const StudyFile& study, const s
 
 // Whole or not at all; what is loaded is what was saved, bit by bit. None where there is no file, or one of other
 // inputs or sizes; the error is of a file that is not as it was written.
-struct ResponseSizes {
-  size_t candidates = 0, elements = 0, eyes = 0, conditions = 0;
-};
 Status saveResponse(const std::filesystem::path& file, const std::string& hash, const Response& response);
 Result<std::optional<Response>> loadResponse(const std::filesystem::path& file, const std::string& hash,
                                              const ResponseSizes& sizes);
+
+// Items of a response (ResponseItem), a file each, as several processes find them. `hash` and sizes are of the whole.
+struct ItemPlace {
+  size_t index = 0, all = 0;  // of so many
+  bool operator==(const ItemPlace&) const = default;
+};
+std::string itemFileName(const ItemPlace& place);  // "response_0003_of_0012.item"
+Status saveItem(const std::filesystem::path& folder, const std::string& hash, const ResponseSizes& sizes,
+                const ItemPlace& place, const ResponseItem& item);
+// As loadResponse().
+Result<std::optional<ResponseItem>> loadItem(const std::filesystem::path& folder, const std::string& hash,
+                                             const ResponseSizes& sizes, const ItemPlace& place);
+
+// Writes the response of items that lie in several folders, as saveResponse() does, without the study that they are of.
+// Files of other names are passed over. Returns how many items there are; the error is of a damaged file, of items of
+// different studies, or names what is missing.
+Result<size_t> joinItems(const std::vector<std::filesystem::path>& files, const std::filesystem::path& response);
 
 Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
 Result<std::optional<search::State>> loadSearch(const std::filesystem::path& file, const std::string& hash,

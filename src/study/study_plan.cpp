@@ -111,6 +111,22 @@ std::vector<StudyTechnique> StudyPlan::techniquesIn(const std::string& what) con
   return out;
 }
 
+std::string viewName(const StudyScene& scene, const StudyLight& light) { return scene.name + "/" + light.name; }
+
+std::string walkName(const StudyScene& scene) { return scene.name + "/walk"; }
+
+std::vector<std::string> partsOf(const StudyPlan& plan) {
+  std::vector<std::string> names;
+  const bool views = !plan.techniquesIn("pictures").empty(), walks = !plan.techniquesIn("walks").empty();
+  for (const StudyScene& s : plan.scenes) {
+    for (const StudyLight& light : s.lights) {
+      if (views) names.push_back(viewName(s, light));
+    }
+    if (walks && !s.walk.empty()) names.push_back(walkName(s));
+  }
+  return names;
+}
+
 std::vector<StudyTechnique> usualTechniques() {
   namespace t = technique;
   std::vector<StudyTechnique> out = {

@@ -43,6 +43,12 @@ struct StudyPlan {
   std::vector<StudyTechnique> techniquesIn(const std::string& what) const;
 };
 
+// Names of what can be measured apart from the rest: "SCENE/LIGHT" of a view, "SCENE/walk" of a walk.
+std::string viewName(const StudyScene& scene, const StudyLight& light);
+std::string walkName(const StudyScene& scene);
+// All that the plan has techniques for.
+std::vector<std::string> partsOf(const StudyPlan& plan);
+
 // cone and hybrid, the three rivals with what the study's parameters leave open (docs/reference/study.md), and path.
 std::vector<StudyTechnique> usualTechniques();
 

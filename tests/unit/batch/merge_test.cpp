@@ -64,7 +64,7 @@ TEST_F(BatchMerge, FiguresHaveALineForEachTask) {
   RunWish some = wish(all);
   some.tasks = {0, 1};
   ASSERT_TRUE(runTasks(all, some));
-  const Result<Merged> merged = mergeBatch(all);
+  const Result<Merged> merged = mergeBatch(all, program());
   ASSERT_TRUE(merged) << merged.error();
   EXPECT_EQ(merged.value().done, 1u);
   EXPECT_EQ(merged.value().failed, 1u);

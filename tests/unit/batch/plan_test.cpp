@@ -75,6 +75,42 @@ TEST_F(BatchPlan, InputsAreWhatFilesName) {
   EXPECT_NE(tasks("[[pictures]]\nhomes = 'house.sh3d'\nlights = 'evening.json'\n")[0].id, all[0].id);
 }
 
+TEST_F(BatchPlan, CamerasOfOneTaskAreRenderedTogether) {
+  const std::vector<Task> all =
+      tasks("[[pictures]]\nhomes = 'house.sh3d'\ncameras = ['A', 'B', 'C']\ncamerasPerTask = 2\n");
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].labels.back().second, "A, B");
+  EXPECT_EQ(Words(all[0].arguments.begin() + 2, all[0].arguments.begin() + 6),
+            (Words{"--camera", "A", "--camera", "B"}));
+  EXPECT_EQ(Words(all[1].arguments.begin() + 2, all[1].arguments.begin() + 4), (Words{"--camera", "C"}));
+}
+
+TEST_F(BatchPlan, OptimiseIsCutIntoPartsOfItsResponse) {
+  writeFile(files_ / "goals.toml", "catalogue = 'lamps.toml'\n");
+  writeFile(files_ / "lamps.toml", "lamps");
+  const std::vector<Task> all =
+      tasks("[[optimise]]\nhomes = 'homes/*.sh3d'\nstudies = 'goals.toml'\nparts = 3\nquality = 'draft'\n");
+  ASSERT_EQ(all.size(), 2u * 3);
+  EXPECT_EQ(all[1].arguments, (Words{"optimise", "../homes/a.sh3d", "../goals.toml", "--part", "2/3", "--quality",
+                                     "draft", "--quiet", "-o", "{folder}"}));
+  EXPECT_EQ(all[0].group, all[2].group);
+  EXPECT_NE(all[0].group, all[3].group) << "another home";
+  ASSERT_EQ(all[0].inputs.size(), 3u);
+  EXPECT_EQ(all[0].inputs[2].file, "../lamps.toml") << "named between single quotes";
+}
+
+TEST_F(BatchPlan, AStudyIsCutIntoItsViewsAndWalks) {
+  writeFile(files_ / "study.json", R"({"scenes": [
+    {"name": "house", "scene": "house.sh3d", "lights": [{"name": "own"}, {"name": "evening", "lighting": "evening.json"}],
+     "walk": "walk.json"}]})");
+  const std::vector<Task> all = tasks("[[study]]\nstudy = 'study.json'\noptions = ['--runs', '1']\n");
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[1].arguments,
+            (Words{"study", "../study.json", "--only", "house/evening", "--runs", "1", "--quiet", "-o", "{folder}"}));
+  EXPECT_EQ(all[2].arguments[3], "house/walk");
+  EXPECT_EQ(all[0].inputs.size(), 5u) << "the study, what it names, and what that names";
+}
+
 TEST_F(BatchPlan, SharedLightIsThatOfAllCameras) {
   const std::vector<Task> all = tasks("[[pictures]]\nhomes = 'house.sh3d'\ncameras = ['A', 'B']\nshareLight = true\n");
   ASSERT_EQ(all.size(), 2u);

@@ -143,5 +143,55 @@ TEST_F(BatchCommand, ADryRunShowsTheScripts) {
   EXPECT_NE(run.out.find("batch merge"), std::string::npos);
 }
 
+// A study cut into its views and walks, and put together again, has the pages of one that was not.
+TEST_F(BatchCommand, AStudyIsMeasuredViewByView) {
+  writeFile(files_ / "study.json", R"({"scenes": [{"name": "Room", "scene": "room.gltf", "camera": "Front",
+    "lights": [{"name": "own"}, {"name": "dim", "dimLamp": "150 lm"}]}]})");
+  writeFile(files_ / "plan.toml",
+            "[[study]]\nname = 'rooms'\nstudy = 'study.json'\noptions = ['--technique', 'cone', '--size', '32x18', "
+            "'--runs', '1', '--most-seconds', '0.1', '--reference-seconds', '1']\n");
+  ASSERT_EQ(batch({"plan", files_ / "plan.toml", "-o", folder_}).exitStatus, 0);
+  const ProgramRun one = batch({"run", folder_, "--index", "1"});
+  ASSERT_EQ(one.exitStatus, 0) << one.err;
+  ProgramRun merged = batch({"merge", folder_});
+  ASSERT_EQ(merged.exitStatus, 0) << merged.err;
+  const auto cases = [&] { return nlohmann::json::parse(readFile(folder_ + "/merged/rooms/study.json"))["cases"]; };
+  ASSERT_EQ(cases().size(), 1u) << "what is not done is left out";
+  EXPECT_EQ(cases()[0]["light"], "dim");
+  ASSERT_EQ(batch({"run", folder_, "--all"}).exitStatus, 0);
+  merged = batch({"merge", folder_});
+  ASSERT_EQ(merged.exitStatus, 0) << merged.err;
+  ASSERT_EQ(cases().size(), 2u);
+  for (const auto& one : cases()) EXPECT_FALSE(one["curves"][0]["points"].empty()) << one;
+  EXPECT_NE(readFile(folder_ + "/merged/index.html").find("rooms/study.html"), std::string::npos);
+}
+
+TEST_F(BatchCommand, AResponseIsFoundInPartsAndOptimiseGoesOn) {
+  writeFile(files_ / "catalogue.toml",
+            "[[luminaire]]\nname = 'Bulb'\ntype = 'point'\nflux = '800 lm'\nwatts = 8\nprice = 20\n"
+            "mounting = ['ceiling']\ndrop = 0.3\n");
+  writeFile(files_ / "goals.toml", "catalogue = 'catalogue.toml'\n" + std::string(testing::kHallZone) +
+                                       "spacing = 1\n" + testing::kHallPlaces);
+  writeFile(files_ / "plan.toml",
+            "[[optimise]]\nname = 'lamps'\nhomes = 'room.gltf'\nstudies = 'goals.toml'\nparts = 2\n"
+            "quality = 'draft'\n");
+  ASSERT_EQ(batch({"plan", files_ / "plan.toml", "-o", folder_}).exitStatus, 0);
+  ASSERT_EQ(batch({"run", folder_, "--index", "0"}).exitStatus, 0);
+  ProgramRun merged = batch({"merge", folder_});
+  EXPECT_NE(merged.err.find("parts of the response are there"), std::string::npos) << merged.err;
+  ASSERT_EQ(batch({"run", folder_, "--all"}).exitStatus, 0);
+  merged = batch({"merge", folder_});
+  ASSERT_EQ(merged.exitStatus, 0) << merged.err;
+  EXPECT_NE(merged.err.find("roomlight optimise ../room.gltf ../goals.toml"), std::string::npos) << merged.err;
+  const auto folder = std::filesystem::path(folder_) / "merged" / "lamps_room_goals";
+  const std::string response = readFile(folder / "response.bin");
+  ASSERT_FALSE(response.empty());
+  const ProgramRun on = runProgram({"optimise", files_ / "room.gltf", files_ / "goals.toml", "--quality", "draft",
+                                    "--evaluations", "200", "--certify", "0", "-o", folder});
+  ASSERT_EQ(on.exitStatus, 0) << on.err;
+  EXPECT_NE(on.err.find("is known from before"), std::string::npos) << on.err;
+  EXPECT_EQ(readFile(folder / "response.bin"), response);
+}
+
 }  // namespace
 }  // namespace roomlight

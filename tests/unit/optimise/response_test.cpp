@@ -14,12 +14,18 @@ class ResponseTest : public ::testing::Test {
     const RenderProgress progress;
     RenderStats stats;
     Stages stages(progress, stats);
-    ResponseSettings settings;
-    settings.mostSamples = 4096, settings.tolerance = 0.005;
-    auto found = findResponse(problem_->file.home, problem_->file.study(), problem_->candidates, problem_->meters,
-                              settings, stages);
-    ASSERT_TRUE(found) << found.error();
-    problem_->response = *found.value();
+    const ResponseProblem p{problem_->file.home,
+                            problem_->file.study(),
+                            problem_->candidates,
+                            problem_->meters,
+                            {.tolerance = 0.005, .mostSamples = 4096}};
+    std::vector<ResponseItem> items;
+    for (size_t i = 0; i < itemCount(p); ++i) {
+      auto item = findItem(p, i, stages);
+      ASSERT_TRUE(item) << item.error();
+      items.push_back(std::move(*item.value()));
+    }
+    problem_->response = responseOf(sizesOf(p), items);
     problem_->model = makeModel(problem_->file.study(), problem_->candidates, problem_->meters, problem_->response);
   }
   static void TearDownTestSuite() { delete problem_; }

@@ -98,6 +98,29 @@ TEST_F(RunInAFolder, AResponseServesOtherSearchesAndNoOtherInputs) {
   EXPECT_TRUE(warnings_.empty()) << warnings_[0];
 }
 
+// Light is found once, by whichever process; what comes of it is the same.
+TEST_F(RunInAFolder, PartsOfOtherProcessesMakeItsResponse) {
+  wish_.evaluations = 1000, wish_.certified = 0;
+  EXPECT_FALSE(responds());
+  const std::string alone = readFile(wish_.folder / "response.bin");
+  wish_.folder = files_ / "shared";
+  wish_.parts = 3;
+  std::filesystem::create_directories(wish_.folder);
+  for (wish_.part = 0; wish_.part < 2; ++wish_.part) {
+    optimise::Run run(wish_, news());
+    ASSERT_TRUE(run.read());
+    const Status found = run.respondPart(stages_);
+    ASSERT_TRUE(found) << found.error();
+    EXPECT_TRUE(isKept(optimise::Run::partFile(wish_.part, 3)));
+  }
+  EXPECT_FALSE(isKept("response.bin"));
+  EXPECT_TRUE(responds()) << "two of three solutions";
+  EXPECT_EQ(readFile(wish_.folder / "response.bin"), alone);
+  for (const auto& file : std::filesystem::directory_iterator(wish_.folder))
+    EXPECT_NE(file.path().extension(), ".item") << file.path();
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+}
+
 TEST_F(RunInAFolder, StoppedBeforeItsResponseIsWholeItKeepsNothing) {
   for (const char* stage : {"bvh", "illuminate"}) {
     cancelIn_ = stage, stop_ = false;

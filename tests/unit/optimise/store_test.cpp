@@ -56,6 +56,76 @@ TEST(Store, AResponseComesBackBitByBitAndOnlyForItsInputs) {
   EXPECT_FALSE(load(folder / "half.bin", "abc", sizes));
 }
 
+// A response as three solutions: two groups of candidates, one condition.
+struct Cut {
+  ResponseSizes sizes;
+  std::vector<ResponseItem> items;
+};
+Cut cut(const SmallProblem& p) {
+  const Response& r = p.response;
+  const size_t n = p.candidates.candidates.size(), half = n / 2;
+  Cut out{{n, p.meters.elements.size(), 1, 1, p.meters.points()}, {}};
+  for (const auto& [first, end] : {std::pair{size_t{0}, half}, {half, n}}) {
+    out.items.push_back({first,
+                         end - first,
+                         {r.of(first), r.of(first) + (end - first) * r.elements},
+                         std::vector<float>((end - first) * out.sizes.points, 0.01f),
+                         {r.glareOf(first), r.glareOf(first) + (end - first)}});
+  }
+  out.items.push_back({0, 0, r.base[0].lux, {}, r.base[0].glare});
+  return out;
+}
+
+TEST(Store, ItemsOfSeveralFoldersMakeTheResponse) {
+  const SmallProblem p;
+  const testing::TemporaryFolder folder;
+  const Cut parts = cut(p);
+  std::vector<std::filesystem::path> files;
+  for (size_t i = 0; i < parts.items.size(); ++i) {
+    const std::filesystem::path at = folder / (i == 1 ? "a" : "b");
+    std::filesystem::create_directories(at);
+    ASSERT_TRUE(saveItem(at, hashOf("abc"), parts.sizes, {i, 3}, parts.items[i]));
+    files.push_back(at / itemFileName({i, 3}));
+    EXPECT_EQ(loadItem(at, hashOf("abc"), parts.sizes, {i, 3}).value(), parts.items[i]);
+    EXPECT_FALSE(loadItem(at, hashOf("abd"), parts.sizes, {i, 3}).value()) << "of other inputs";
+    EXPECT_FALSE(loadItem(at, hashOf("abc"), parts.sizes, {i, 4}).value()) << "cut otherwise";
+  }
+  files.push_back(folder / "b" / "part_01_of_02.json");
+  const auto joined = joinItems(files, folder / "response.bin");
+  ASSERT_TRUE(joined) << joined.error();
+  EXPECT_EQ(joined.value(), 3u);
+  const auto back = load(folder / "response.bin", hashOf("abc"), parts.sizes);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->lux, p.response.lux);
+  EXPECT_EQ(back->glare, p.response.glare);
+  EXPECT_EQ(back->base[0].lux, p.response.base[0].lux);
+  EXPECT_GT(back->worstErrorPercent, 0);
+}
+
+TEST(Store, ItemsThatDoNotFitAreNotJoined) {
+  const SmallProblem p;
+  const testing::TemporaryFolder folder;
+  const Cut parts = cut(p);
+  std::vector<std::filesystem::path> files;
+  for (size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(saveItem(folder.path(), hashOf("abc"), parts.sizes, {i, 3}, parts.items[i]));
+    files.push_back(folder / itemFileName({i, 3}));
+  }
+  const auto refused = [&](const std::string& with) {
+    const auto joined = joinItems(files, folder / "response.bin");
+    EXPECT_FALSE(std::filesystem::exists(folder / "response.bin"));
+    return !joined && joined.error().find(with) != std::string::npos;
+  };
+  EXPECT_TRUE(refused("2 of 3 parts"));
+  ASSERT_TRUE(saveItem(folder.path(), hashOf("abd"), parts.sizes, {2, 3}, parts.items[2]));
+  files.push_back(folder / itemFileName({2, 3}));
+  EXPECT_TRUE(refused("is of another study"));
+  std::string bytes = testing::readFile(files.back());
+  bytes[bytes.size() / 2] ^= 1;
+  testing::writeFile(files.back(), bytes);
+  EXPECT_TRUE(refused("is damaged"));
+}
+
 TEST(Store, ADamagedResponseIsRefusedWithOneLine) {
   const testing::TemporaryFolder folder;
   const std::filesystem::path file = folder / "response.bin";
