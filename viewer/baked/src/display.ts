@@ -107,7 +107,11 @@ export class Display {
     private readonly home: Home,
     samples: number,
   ) {
-    this.image = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType, samples });
+    this.image = new THREE.WebGLRenderTarget(1, 1, {
+      type: THREE.HalfFloatType,
+      samples,
+      resolveDepthBuffer: false, // nothing reads it
+    });
     const ramp = new Uint8Array(4 * kRampColours);
     for (let i = 0; i < kRampColours; ++i) {
       ramp.set(

@@ -195,10 +195,11 @@ export class Stage {
     this.meterDue = false;
     this.meteredMs = nowMs;
     const { scale, scaleDue } = this;
+    const finished = this.complete && !this.probe.busy && !this.due; // the picture read
     const { amounts, width } = await this.display.meter();
     this.metering = false;
     if ((scale === null) !== (this.scale === null)) this.meterDue = this.due = true;
-    else if (scale === null) this.aim(lookedAtEv100(amounts, width));
+    else if (scale === null) this.aim(lookedAtEv100(amounts, width), finished);
     else if (scaleDue) {
       this.scaleDue = false;
       this.scale = this.display.luxScale = scaleOf(amounts);
@@ -207,10 +208,10 @@ export class Stage {
     }
   }
 
-  private aim(automatic: number | null): void {
+  private aim(automatic: number | null, finished: boolean): void {
     if (automatic === null) return;
     if (this.biasEv === null) {
-      if (!this.complete || this.probe.busy) {
+      if (!finished) {
         this.meterDue = true;
         return;
       }

@@ -18,11 +18,19 @@ const kRemarks = /GPU stall due to ReadPixels|software WebGL|swiftshader/i;
 export const noBakedPage = (): string | false =>
   noBrowser() || (existsSync(kPage) ? false : `${kPage} is missing: npm run build-baked`);
 
-export function launchWithWebGl(): Promise<Browser> {
+// WebGL by the processor (SwiftShader), or by the graphics card if ROOMLIGHT_ANGLE names an interface to it: vulkan,
+// gl-egl, metal or d3d11.
+export const kAngle = process.env.ROOMLIGHT_ANGLE ?? "swiftshader";
+
+export function launchWithWebGl(...more: string[]): Promise<Browser> {
   mkdirSync(kShots, { recursive: true });
+  const software = "--enable-unsafe-swiftshader";
+  const card = kAngle !== "swiftshader";
+  const kind = card ? ["--enable-gpu", "--ignore-gpu-blocklist"] : [software];
   return chromium.launch({
     executablePath: kBrowser,
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--lang=en-GB"],
+    ignoreDefaultArgs: card ? [software] : [],
+    args: ["--no-sandbox", "--use-gl=angle", `--use-angle=${kAngle}`, ...kind, "--lang=en-GB", ...more],
   });
 }
 

@@ -1,14 +1,16 @@
 // What the light of a baked home costs the chip, and whether a long walk takes memory:
 //   node frames_baked.js FOLDER WIDTHxHEIGHT [MINUTES]
 // FOLDER is one by `roomlight bake -o FOLDER`. Its page, and plain three.js with the same geometry unlit, turn on the
-// spot in one browser, as many pixels each. To stdout, as JSON: milliseconds a frame and sizes of both, the heap in MiB
-// after each minute of a walk, and tasks above 50 ms a minute.
+// spot in one browser, as many pixels each. To stdout, as JSON: milliseconds a frame, of the browser and of the chip by
+// timer queries, draw calls and sizes of both, the heap in MiB after each minute of a walk, and tasks above 50 ms a
+// minute. WebGL is SwiftShader's, or by ROOMLIGHT_ANGLE the graphics card's (baked_support.ts).
 import { readFileSync, readdirSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { join, normalize } from "node:path";
-import { chromium, type Page } from "playwright-core";
-import { kBrowser } from "./support.js";
+import type { Page } from "playwright-core";
+import { kAngle, launchWithWebGl } from "./baked_support.js";
+import { chipMs, chipTime, timeChip } from "./chip_time.js";
 
 const kTurnS = 8;
 const kWarmS = 6; // until the page has found how many pixels it draws
@@ -57,6 +59,7 @@ window.turn = async (width, height, seconds) => {
     };
     requestAnimationFrame(draw);
   });
+  document.getElementById("view").dataset.calls = String(renderer.info.render.calls);
   return (frames.at(-1) - frames[0]) / (frames.length - 1);
 };
 document.documentElement.dataset.ready = "true";
@@ -79,21 +82,13 @@ const server = createServer((request, response) => {
 await new Promise<void>(ready => server.listen(0, "127.0.0.1", ready));
 const origin = `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
 
-const browser = await chromium.launch({
-  executablePath: kBrowser,
-  args: [
-    "--no-sandbox",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--js-flags=--expose-gc",
-    "--enable-precise-memory-info",
-  ],
-});
+const unlimited = kAngle === "swiftshader" ? [] : ["--disable-frame-rate-limit", "--disable-gpu-vsync"];
+const browser = await launchWithWebGl("--js-flags=--expose-gc", "--enable-precise-memory-info", ...unlimited);
 
 async function opened(link: string): Promise<Page> {
   const page = await (await browser.newContext({ viewport: { width: width!, height: height! } })).newPage();
   page.setDefaultTimeout(120_000);
+  await timeChip(page);
   await page.goto(link);
   return page;
 }
@@ -112,20 +107,29 @@ const framesOf = (page: Page, seconds: number): Promise<number> =>
     seconds,
   );
 
+const sizeOf = (page: Page) =>
+  page.locator("#view").evaluate(v => {
+    const { width, height } = v as HTMLCanvasElement;
+    return { width, height };
+  });
+const callsOf = (page: Page) => page.locator("#view").evaluate(v => Number((v as HTMLElement).dataset.calls));
+
 const page = await opened(`${origin}/home/`);
 const view = page.locator("#view");
 await page.waitForFunction(() => document.getElementById("view")?.dataset.settled === "true", null, {
   timeout: 120_000,
 });
+const panel = page.getByLabel("Close controls", { exact: true });
+if (await panel.isVisible()) await panel.click();
 await view.focus();
 await page.keyboard.down("KeyQ");
 await page.waitForTimeout(kWarmS * 1000);
+const before = await chipTime(page);
 const ms = await framesOf(page, kTurnS);
+const after = await chipTime(page);
 await page.keyboard.up("KeyQ");
-const drawn = await view.evaluate(v => ({
-  width: (v as HTMLCanvasElement).width,
-  height: (v as HTMLCanvasElement).height,
-}));
+const drawn = await sizeOf(page);
+const calls = await callsOf(page);
 
 // Walks to and fro and turns, dims lamps on the way.
 const heapMiB: number[] = [];
@@ -175,13 +179,17 @@ const turn = (seconds: number) =>
     [drawn.width, drawn.height, seconds] as [number, number, number],
   );
 await turn(kWarmS);
+const plainBefore = await chipTime(plain);
 const plainMs = await turn(kTurnS);
+const plainAfter = await chipTime(plain);
+const plainCalls = await callsOf(plain);
 await browser.close();
 server.close();
 process.stdout.write(
   JSON.stringify({
-    page: { ms, ...drawn },
-    plain: { ms: plainMs, ...drawn },
+    renderer: after.renderer,
+    page: { ms, chipMs: chipMs(before, after), calls, ...drawn },
+    plain: { ms: plainMs, chipMs: chipMs(plainBefore, plainAfter), calls: plainCalls, ...drawn },
     heapMiB: heapMiB.map(h => Number(h.toFixed(1))),
     longTasksAMinute: minutes > 0 ? longTasks / minutes : null,
   }),
