@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "filter/filter_kernel.h"
 #include "filter/levels.h"
+#include "filter/specks.h"
 
 namespace roomlight {
 namespace {
@@ -17,7 +18,7 @@ constexpr int kBand = 256;  // rows
 constexpr int kFar = 5;  // passes after which a lone bright line leaves copies of itself as far apart as the last pass
                          // looks; short passes after them take these away
 constexpr int kBack = 3;
-constexpr int kNoiseReach = 3;  // pixels
+constexpr int kNoiseReach = 3, kSpeckReach = 1;  // pixels
 // Of a pixel's light what its panes reflect, at least, where the surfaces seen in them tell what is filtered together:
 // half of what glass reflects.
 constexpr float kLeastShown = 0.02f;
@@ -144,8 +145,8 @@ class BandFilter {
         kinds_(kindsIn(input)),
         levels_(kinds_.rare || input.byLevels),
         steps_(stepsOf(passes)),
-        around_(levels_ && also.left ? kNoiseReach : 0),
-        reach_(reachOf(steps_) + (levels_ ? poolReachOf(passes) + around_ + kCompanyReach : 0)),
+        around_(also.left ? (levels_ ? kNoiseReach : 0) : kSpeckReach),
+        reach_(reachOf(steps_) + around_ + (levels_ ? poolReachOf(passes) + kCompanyReach : 0)),
         rows_(w_, std::min(h_, kBand + 2 * reach_), margin()) {}
 
   Image run() {
@@ -167,7 +168,11 @@ class BandFilter {
         if (k == 0 && also_.once) tellOnce();
       }
       if (levels_) forRows(around_, [&](int y) { addKept(rows_, pass_.place[0], y); });
-      if (around_ > 0) poolNoise();
+      if (also_.left) {
+        if (levels_) poolNoise();
+      } else if (!steps_.empty()) {
+        removeSpecks();
+      }
       forRows(0, [&](int y) { tell(y, out); });
     }
     return out;
@@ -261,6 +266,11 @@ class BandFilter {
     forRows(0, [&](int y) { poolRow(rows_, 2, 1, y); });
   }
 
+  void removeSpecks() {
+    forRows(0, [&](int y) { boundSpecks(rows_, pass_, y); });
+    for (int k = 0; k < kFilterLights; ++k) pass_.place[k] ^= hasSpecks(k) ? 1 : 0;
+  }
+
   void tellOnce() {
     forRows(0, [&](int y) {
       const float* at = rows_.line(FilterRows::light(0, pass_.place[0]), y);
@@ -299,7 +309,7 @@ class BandFilter {
   const Kinds kinds_;
   const bool levels_;  // diffuse light is filtered by levels
   const std::vector<int> steps_;
-  const int around_;  // rows whose noise tells that of a pixel
+  const int around_;  // rows that a pixel is judged by, after all passes
   const int reach_;
   FilterRows rows_;
   int cleared_ = 0;  // rows whose margins are; passes leave them so
@@ -317,7 +327,7 @@ class RoundPicture {
  public:
   RoundPicture(const FilterInput& input, int passes, const std::function<FilterPixel(size_t)>* mean)
       : w_(input.width),
-        beside_(reachOf(stepsOf(passes)) + poolReachOf(passes) + kCompanyReach),
+        beside_(reachOf(stepsOf(passes)) + poolReachOf(passes) + kCompanyReach + kSpeckReach),
         padded_(w_ + 2 * beside_, input.height) {
     padded_.byLevels = input.byLevels;
     if (!input.reflected.empty()) padded_.reflected.resize(padded_.pixels.size());

@@ -59,6 +59,9 @@ Image composed(const FilterInput& input);  // without filtering
 // `irradiance`, where given: diffuse light over albedo after all passes.
 Image filtered(const FilterInput& input, int passes, std::vector<Vec3>* once = nullptr,
                std::vector<Vec3>* irradiance = nullptr);
+// Pixels on edges are means of two surfaces that no pass filters as either: of a filtered image they are kept within
+// what the eight pixels around show, unless most of their light is `rest` or they are far brighter.
+void boundEdges(const FilterInput& means, Image& image);
 // What is left after so many passes, a pixel each: its luminance without rare light, and the variance of that.
 struct FilteredLuminance {
   std::vector<float> luminance, variance;

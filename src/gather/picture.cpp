@@ -124,6 +124,7 @@ class Gathering {
                         : composed(means);
     parallelFor(fragments_.size(), 16,
                 [&](size_t t) { addFragments(fragments_[t], means, counts_, irradiance, result_.image); });
+    if (keepsFragments_ && settings_.filterPasses > 0) boundEdges(means, result_.image);
   }
   void composeForGood() {
     compose(sums_);

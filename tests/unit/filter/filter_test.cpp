@@ -60,6 +60,51 @@ TEST(Filter, spreadsRareLightOverItsSurfaceAlone) {
   EXPECT_NEAR(beside.mean, 5, 0.05);
 }
 
+// Lone pixels that their own noise does not explain, so that no pass takes them for it.
+TEST(Filter, boundsLonePixelsByThoseBesideThem) {
+  FilterInput in = noisyWall(40, 30, 10, 0);
+  for (FilterPixel& p : in.pixels) p.specular = Vec3(1), p.roughness = 0.5f;
+  in.at(10, 10).diffuse = Vec3(9), in.at(20, 10).diffuse = Vec3(1), in.at(30, 10).specular = Vec3(4);
+  for (int x = 5; x < 35; ++x) in.at(x, 20).diffuse = Vec3(8);  // a line
+  in.at(10, 25).specular = Vec3(4), in.at(10, 25).roughness = 0.02f;  // what a mirror shows
+  in.at(20, 25).normal = normalize(Vec3{1, 0, 1}), in.at(20, 25).diffuse = Vec3(9);  // another surface
+  const Image before = composed(in), after = filtered(in, 5);
+  const auto bright = [&](const Image& image, int x, int y) { return luminance(image.at(x, y)); };
+  const auto isLone = [&](const Image& image, int x, int y) {
+    float least = INFINITY, most = 0;
+    for (int j = y - 1; j <= y + 1; ++j) {
+      for (int i = x - 1; i <= x + 1; ++i) {
+        if (i != x || j != y) least = std::min(least, bright(image, i, j)), most = std::max(most, bright(image, i, j));
+      }
+    }
+    return bright(image, x, y) > most + 1e-3f || bright(image, x, y) < least - 1e-3f;
+  };
+  for (const int x : {10, 20, 30}) {
+    EXPECT_TRUE(isLone(before, x, 10)) << x;
+    EXPECT_FALSE(isLone(after, x, 10)) << x;
+  }
+  EXPECT_GT(bright(after, 20, 20), bright(after, 20, 15) + 1);
+  EXPECT_GT(bright(after, 10, 25), bright(after, 15, 25) + 2);
+  EXPECT_GT(bright(after, 20, 25), bright(after, 15, 25) + 2);
+}
+
+// Means of a bright and a dark surface, one of them too bright, one a thing of its own.
+TEST(Filter, boundsEdgesByWhatIsAroundThem) {
+  FilterInput in = noisyWall(40, 30, 10, 0);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 20; x < 40; ++x) in.at(x, y).position.z = 1, in.at(x, y).diffuse = Vec3(1);
+    in.at(20, y).position.z = 0.5f;
+  }
+  Image image = composed(in);
+  const Image before = image;
+  image.at(20, 10) = Vec3(7), image.at(20, 20) = Vec3(30), image.at(10, 10) = Vec3(7);
+  boundEdges(in, image);
+  EXPECT_EQ(image.at(20, 10), before.at(19, 10));
+  EXPECT_EQ(image.at(20, 20), Vec3(30));
+  EXPECT_EQ(image.at(10, 10), Vec3(7)) << "no edge: the filter's";
+  EXPECT_EQ(image.at(20, 5), before.at(20, 5));
+}
+
 TEST(Filter, rareLightStopsWhereOtherLightDiffers) {
   FilterInput in = noisyWall(128, 64, 10, 0);
   for (int y = 0; y < 64; ++y) {
