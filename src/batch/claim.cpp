@@ -28,11 +28,13 @@ std::string firstLine(const char* file) {
   return line;
 }
 
-// 0 where there is no such process. Field 22 of /proc/N/stat; the second is a name in parentheses.
+// 0 where there is no such process, or one that is dead and only waits for its parent to ask. Field 22 of /proc/N/stat;
+// the second is a name in parentheses, the third its state.
 uint64_t startOf(pid_t process) {
   const std::string line = firstLine(fmt::format("/proc/{}/stat", process).c_str());
   const size_t name = line.rfind(')');
-  if (name == std::string::npos) return 0;
+  if (name == std::string::npos || name + 2 >= line.size()) return 0;
+  if (const char state = line[name + 2]; state == 'Z' || state == 'X') return 0;
   size_t at = name + 1;
   for (int field = 2; field < 21 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
   return at == std::string::npos ? 0 : std::strtoull(line.c_str() + at, nullptr, 10);
@@ -117,11 +119,18 @@ bool Claims::isStale(const Claim& c) const {
 }
 
 std::optional<Claim> Claims::read(const std::string& id) const {
+  double now = 0;
+  return read(id, now);
+}
+
+// `now`: 0, or the time by the file server, which is asked for where it is needed.
+std::optional<Claim> Claims::read(const std::string& id, double& now) const {
   struct stat about {};
   if (stat((folder_.claims() / id).c_str(), &about) != 0) return std::nullopt;
   Claim claim{id, ownerOf(textOf(folder_.claims() / id)), 0, false};
   const bool isHere = claim.owner.host == self_.host && claim.owner.machine == self_.machine;
-  if (!isHere) claim.ageS = serverTime() - secondsOf(about.st_mtim);
+  if (!isHere && now == 0) now = serverTime();
+  if (!isHere) claim.ageS = now - secondsOf(about.st_mtim);
   claim.isStale = isStale(claim);
   return claim;
 }
@@ -184,6 +193,10 @@ void Claims::release(const std::string& id) {
   if (ownerOf(textOf(file)).token == self_.token) unlink(file.c_str());
 }
 
+bool Claims::holds(const std::string& id) const {
+  return held_.contains(id) && ownerOf(textOf(folder_.claims() / id)).token == self_.token;
+}
+
 void Claims::beat() {
   if (steadySeconds() - lastBeatS_ < kBeatS) return;
   lastBeatS_ = steadySeconds();
@@ -201,18 +214,29 @@ void Claims::sweep() const {
       old.push_back(it->path());
   }
   for (const fs::path& file : old) unlink(file.c_str());
-  for (const Claim& claim : all()) {
-    if (claim.isStale && fs::exists(folder_.done(claim.id), code)) unlink((folder_.claims() / claim.id).c_str());
+  // Claims of tasks that are being done are of no interest here: each of many runners would read all of them.
+  double serverNow = now;
+  for (const std::string& id : ids()) {
+    if (!fs::exists(folder_.done(id), code)) continue;
+    const std::optional<Claim> claim = read(id, serverNow);
+    if (claim && claim->isStale) unlink((folder_.claims() / id).c_str());
   }
+}
+
+std::vector<std::string> Claims::ids() const {
+  std::vector<std::string> out;
+  std::error_code code;
+  for (fs::directory_iterator it(folder_.claims(), code), end; !code && it != end; it.increment(code)) {
+    if (std::string name = it->path().filename().string(); isTask(name)) out.push_back(std::move(name));
+  }
+  return out;
 }
 
 std::vector<Claim> Claims::all() const {
   std::vector<Claim> out;
-  std::error_code code;
-  for (fs::directory_iterator it(folder_.claims(), code), end; !code && it != end; it.increment(code)) {
-    const std::string name = it->path().filename().string();
-    if (!isTask(name)) continue;
-    if (const std::optional<Claim> claim = read(name)) out.push_back(*claim);
+  double now = 0;
+  for (const std::string& id : ids()) {
+    if (const std::optional<Claim> claim = read(id, now)) out.push_back(*claim);
   }
   return out;
 }

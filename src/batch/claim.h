@@ -48,6 +48,8 @@ class Claims {
   // False: another process has it. What a dead one has left is taken over, its unfinished output removed.
   Result<bool> take(const std::string& id);
   void release(const std::string& id);
+  // False: another has taken over what this process has taken, since it showed no sign of life for so long.
+  bool holds(const std::string& id) const;
   // A sign of life of all that are held, if the last was kBeatS ago.
   void beat();
 
@@ -59,6 +61,8 @@ class Claims {
 
  private:
   std::optional<Claim> read(const std::string& id) const;
+  std::optional<Claim> read(const std::string& id, double& now) const;
+  std::vector<std::string> ids() const;
   bool isStale(const Claim& claim) const;
   Result<bool> link(const std::string& id) const;
   bool takeOver(const Claim& stale) const;

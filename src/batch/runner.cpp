@@ -78,7 +78,7 @@ class Runner {
     if (failure && failure->isFinal && wish_.again && retried_.insert(index).second) failure.reset();
     if (failure && failure->isFinal) return void(++out_.failed);
     const Result<bool> mine = claims_.take(id);
-    if (!mine) return void(fatal_ = mine.error());
+    if (!mine) return stopFor(mine.error());
     if (!mine.value()) return busy_.push_back(index);
     // Done by the one who had the claim until now; or its output is there, whole, and only the note of it is missing.
     if (fs::exists(folder_.done(id), code) || fs::exists(folder_.out(id), code)) {
@@ -112,7 +112,7 @@ class Runner {
     fs::create_directories(folder_.path() / unfinished, code);
     if (code) {
       claims_.release(task.id);
-      return void(fatal_ = cannotWrite(folder_.path() / unfinished, code.value()).message);
+      return stopFor(cannotWrite(folder_.path() / unfinished, code.value()).message);
     }
     const fs::path printed = printsOutput(task) ? folder_.path() / unfinished / task.output : fs::path();
     Result<Child> child = Child::start(wish_.program, words(task, unfinished), folder_.path(), printed);
@@ -176,15 +176,18 @@ class Runner {
     if (e.isDone) return finish(r, {e.seconds, e.peakMiB, tries, owner_.host});
     if (tellsOfFullDisk(e.line)) {
       discard(r.task.id), claims_.release(r.task.id), ++out_.left;
-      return void(fatal_ = diskFull());
+      return stopFor(e.line);
     }
     constexpr int kBadInput = 2;
     fail(r.index, r.task.id, {e.line, e.how, tries, e.exitStatus == kBadInput || tries >= kMostTries, owner_.host});
   }
 
-  std::string diskFull() const {
-    return fmt::format("{}: the disk or quota is full; make room and run again: what is done is kept",
-                       folder_.path().string());
+  // Nothing more can be done here.
+  void stopFor(const std::string& line) {
+    fatal_ = tellsOfFullDisk(line)
+                 ? fmt::format("{}: the disk or quota is full; make room and run again: what is done is kept",
+                               folder_.path().string())
+                 : line;
   }
 
   bool hasOutput(const std::string& id) const {
@@ -203,7 +206,7 @@ class Runner {
     if (status) status = keepDone(folder_, r.task.id, record);
     if (!status) {
       discard(r.task.id), claims_.release(r.task.id), ++out_.left;
-      return void(fatal_ = tellsOfFullDisk(status.error()) ? diskFull() : status.error());
+      return stopFor(status.error());
     }
     forgetFailed(folder_, r.task.id);
     claims_.release(r.task.id);
@@ -211,14 +214,19 @@ class Runner {
   }
 
   void keep(const std::string& id, const DoneRecord& record) {
-    if (const Status s = keepDone(folder_, id, record); !s) fatal_ = s.error();
+    if (const Status s = keepDone(folder_, id, record); !s) stopFor(s.error());
   }
 
   void fail(size_t index, const std::string& id, FailedRecord record) {
     discard(id);
+    // Another has taken it over, as this process had been asleep or cut off, and removed what its task was writing.
+    if (!claims_.holds(id)) {
+      claims_.release(id);
+      return busy_.push_back(index);
+    }
     const Status kept = keepFailed(folder_, id, record);
     claims_.release(id);
-    if (!kept) return void(fatal_ = tellsOfFullDisk(kept.error()) ? diskFull() : kept.error());
+    if (!kept) return stopFor(kept.error());
     if (wish_.tell)
       wish_.tell(
           fmt::format("task {} ({}): {}{}", index, id, record.line,

@@ -69,6 +69,32 @@ TEST_F(BatchClaim, OfADeadProcessHereIsTakenOverAtOnceWithWhatItLeft) {
   EXPECT_FALSE(std::filesystem::exists(left));
 }
 
+// As under a parent that does not ask for the ends of its children.
+TEST_F(BatchClaim, OfAProcessThatIsDeadButStillListedIsTakenOver) {
+  const pid_t child = fork();
+  if (child == 0) {
+    Owner self = thisOwner();
+    self.token = "child";
+    Claims* claims = new Claims(folder_, 300, self);
+    _exit(claims->take(kId).value() ? 0 : 1);
+  }
+  siginfo_t ended{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);
+  Claims mine(folder_);
+  EXPECT_TRUE(mine.take(kId).value());
+  waitpid(child, nullptr, 0);
+}
+
+TEST_F(BatchClaim, ThatWasTakenOverIsNoLongerHeld) {
+  Claims there(folder_, 300, other("there")), mine(folder_);
+  ASSERT_TRUE(there.take(kId).value());
+  EXPECT_TRUE(there.holds(kId));
+  age(310);
+  ASSERT_TRUE(mine.take(kId).value());
+  EXPECT_FALSE(there.holds(kId));
+  EXPECT_TRUE(mine.holds(kId));
+}
+
 TEST_F(BatchClaim, OfAnotherMachineIsTakenOverWithoutASignOfLife) {
   Claims there(folder_, 300, other("there")), mine(folder_);
   ASSERT_TRUE(there.take(kId).value());

@@ -214,6 +214,19 @@ TEST_F(BatchRunner, TwoAtOnceShareTheTasks) {
   expectTidy();
 }
 
+// What fails since another has taken the task over, with what it was writing, is no failure.
+TEST_F(BatchRunner, ATaskThatWasTakenOverHasNotFailed) {
+  const TaskList all = plan({{"stolen"}});
+  RunWish w = wish(all);
+  w.wait = false;
+  const Result<RunResult> result = runTasks(all, w);
+  ASSERT_TRUE(result) << result.error();
+  EXPECT_EQ(result.value().failed, 0u);
+  EXPECT_EQ(result.value().left, 1u);
+  EXPECT_FALSE(failedRecord(folder_, idAt(all, 0)));
+  EXPECT_TRUE(told_.empty()) << told_[0];
+}
+
 TEST_F(BatchRunner, StatusCountsEachTaskOnce) {
   const TaskList all = plan({writing(1), {"fail", "2", "no such file"}, writing(3)});
   RunWish some = wish(all);

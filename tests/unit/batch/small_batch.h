@@ -29,6 +29,7 @@ case "$1" in
   once) if [ -e ../tried ]; then echo fine > "$2"; else touch ../tried; kill -9 $$; fi ;;
   say) echo "$2" ;;
   nothing) ;;
+  stolen) for claim in claims/*; do echo '{"host": "there", "token": "other"}' > "$claim"; done; exit 2 ;;
   full) echo "roomlight: $2: cannot be written: No space left on device" >&2; exit 1 ;;
 esac
 )");
