@@ -104,7 +104,9 @@ std::optional<double> memoryGib() {
 
 Json machineJson() {
   const std::string name = valueOf("/proc/cpuinfo", "model name");
-  const std::optional<double> memory = memoryGib(), available = gibOf("MemAvailable");
+  const std::optional<double> memory = memoryGib();
+  std::optional<double> available = gibOf("MemAvailable");
+  if (available && memory) available = std::min(*available, *memory);
   return {{"version", version()},
           {"builtFor", builtForProcessor()},
           {"processor", name.empty() ? Json() : Json(name)},

@@ -85,7 +85,7 @@ int stoppedOptimise() { return failed("interrupted; started again with the same 
 
 // Home and study are read; a part of the response is found.
 int workPart(const OptimiseOptions& o, optimise::Run& run, Stages& stages, ProgressDisplay& display) {
-  if (const Status s = run.respondPart(stages); !s) return failed(s.error());
+  if (const Status s = run.respondPart(stages); !s) return failed(s.error(), kFailed);
   if (run.stopped()) return stoppedOptimise();
   display.line(fmt::format("when all parts are there, go on with the same command without --part {}", o.part));
   return kOk;

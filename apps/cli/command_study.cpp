@@ -101,7 +101,7 @@ Status narrow(const StudyOptions& o, StudyPlan& plan) {
     plan.techniques = kept;
   }
   if (const Status s = narrowToOnly(o.only, plan); !s) return s;
-  if (!o.quick) return Ok{};
+  if (!o.quick || o.reportOnly) return Ok{};  // reports tell of all that was measured
   plan.scenes.resize(std::min<size_t>(plan.scenes.size(), 2));
   for (StudyScene& s : plan.scenes) s.lights.resize(std::min<size_t>(s.lights.size(), 1));
   for (size_t i = 1; i < plan.scenes.size(); ++i) plan.scenes[i].walk.clear();
@@ -365,7 +365,8 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
     const StudyProgress progress{[&](const std::string& now, double done, double left) { line.show(now, done, left); },
                                  &interrupted()};
     results = runStudy(plan.value(), settings.value(), store.value(), tools, progress, [&](const StudyResults& soFar) {
-      if (written) written = writeStudyReports(folder, header, soFar, plots);
+      if (written && !(o.reportOnly && nothingMeasured(soFar)))
+        written = writeStudyReports(folder, header, soFar, plots);
     });
   }
   if (!results) return failed(results.error(), kFailed);

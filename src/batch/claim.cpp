@@ -181,6 +181,7 @@ Result<bool> Claims::take(const std::string& id) {
       return true;
     }
     const std::optional<Claim> other = read(id);
+    if (other && other->owner.token == self_.token && held_.insert(id).second) return true;  // had been let go in vain
     if (other && !other->isStale) return false;
     if (other && !takeOver(*other)) return false;
   }

@@ -30,12 +30,6 @@ std::vector<std::pair<std::string, TomlPlace>> textsAt(const TomlPlace& place) {
   return out;
 }
 
-// What people call a file of the plan: as written there, without extension, and without where all of the disk it is.
-std::string labelOf(const std::string& file) {
-  const fs::path path = fs::path(file).replace_extension();
-  return path.is_absolute() ? path.filename().string() : path.string();
-}
-
 // Files that a pattern with * and ? names; one without these must be there.
 std::vector<std::string> filesNamed(const TomlPlace& place, const std::string& pattern, const PlanPaths& paths) {
   std::vector<std::string> out;
@@ -61,6 +55,11 @@ std::string PlanPaths::related(const fs::path& written) const {
   std::error_code code;
   const fs::path whole = fs::weakly_canonical(plan / written, code);
   return whole.lexically_relative(batch).string();
+}
+
+std::string labelOf(const std::string& file) {
+  const fs::path path = fs::path(file).replace_extension();
+  return path.is_absolute() ? path.filename().string() : path.string();
 }
 
 bool knowsKeys(const TomlPlace& table, const std::vector<std::string>& keys) {

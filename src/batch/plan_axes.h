@@ -13,6 +13,9 @@ struct PlanPaths {
   std::string related(const std::filesystem::path& written) const;
 };
 
+// What people call a file of the plan: as written there, without extension, and without where all of the disk it is.
+std::string labelOf(const std::string& file);
+
 // As TomlPlace::isTable, but an unknown key is answered by the nearest one.
 bool knowsKeys(const optimise::TomlPlace& table, const std::vector<std::string>& keys);
 

@@ -14,7 +14,7 @@ using optimise::TomlPlace;
 constexpr int kUsualParts = 8, kMostParts = 1000;
 constexpr double kUsualPartS = 120;  // of a response, or a view of a study
 
-// Study files: one text or a list; patterns are allowed.
+// Study files: one text or a list.
 void readStudies(const TomlPlace& table, const PlanPaths& paths, Section& out) {
   Axis axis{"study", {}};
   const TomlPlace studies = table["studies"];
@@ -25,7 +25,7 @@ void readStudies(const TomlPlace& table, const PlanPaths& paths, Section& out) {
     std::error_code code;
     if (!fs::is_regular_file(paths.plan / name, code)) place.fail(fmt::format("{}: no such file", name));
     const std::string related = paths.related(name);
-    axis.values.push_back({fs::path(name).replace_extension().string(), {related}, {related}});
+    axis.values.push_back({labelOf(name), {related}, {related}});
   }
   if (count == 0) studies.fail("must not be empty");
   addAxis(out, std::move(axis));
@@ -39,10 +39,24 @@ bool refuses(const TomlPlace& table, std::initializer_list<const char*> options)
     const std::string word = list.at(i).text();
     for (const char* option : options) {
       if (word == option || word.starts_with(std::string(option) + "="))
-        return list.at(i).fail(fmt::format("the batch says which part; leave {} out", option)), true;
+        return list.at(i).fail(fmt::format("the batch says which parts there are; leave {} out", option)), true;
     }
   }
   return false;
+}
+
+// Those that --technique leaves, as the tasks themselves will have it.
+void narrowTechniques(const TomlPlace& table, StudyPlan& plan) {
+  if (!table.has("options") || !table["options"].isArray()) return;
+  std::vector<std::string> wanted;
+  const TomlPlace options = table["options"];
+  for (size_t i = 0, n = options.size(); i + 1 < n; ++i) {
+    if (options.at(i).text() == "--technique") wanted.push_back(options.at(i + 1).text());
+  }
+  if (wanted.empty()) return;
+  std::erase_if(plan.techniques, [&](const StudyTechnique& t) {
+    return std::find(wanted.begin(), wanted.end(), t.name) == wanted.end();
+  });
 }
 
 }  // namespace
@@ -70,10 +84,11 @@ void readOptimise(const TomlPlace& table, const PlanPaths& paths, Section& out) 
 // Each task measures a view or a walk of the study (`study --only`).
 void readStudy(const TomlPlace& table, const PlanPaths& paths, Section& out) {
   if (!knowsKeys(table, {"name", "study", "options", "seconds"})) return;
-  if (refuses(table, {"--only", "--report-only"})) return;
+  if (refuses(table, {"--only", "--report-only", "--quick", "--external"})) return;
   const std::string name = table["study"].text(), file = fileAt(table["study"], paths, out);
-  const Result<StudyPlan> plan = readStudyFile(paths.plan / name);
+  Result<StudyPlan> plan = readStudyFile(paths.plan / name);
   if (!plan) return table["study"].fail(plan.error());
+  narrowTechniques(table, plan.value());
   out.words = {"study", file};
   Axis axis{"view", {}, true};
   for (const std::string& part : partsOf(plan.value())) axis.values.push_back({part, {"--only", part}, {}});

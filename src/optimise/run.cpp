@@ -164,6 +164,7 @@ Status Run::respond(Stages& stages) {
   if (known && known.value()) {
     news_.line("the response of all candidates is known from before");
     response_ = std::move(*known.value());
+    removeItems();
   } else {
     Result<std::optional<Response>> found = responseByItems(stages);
     if (!found) return Error{found.error()};
@@ -189,8 +190,10 @@ std::string Run::partFile(size_t part, size_t parts) {
 Status Run::respondPart(Stages& stages) {
   if (const Status s = prepare(stages); !s || stopped()) return s;
   const size_t all = itemCount(problem());
+  const auto whole = loadResponse(wish_.folder / "response.bin", hash_, sizesOf(problem()));
+  const bool isKnown = whole && whole.value();
   nlohmann::ordered_json solutions = nlohmann::ordered_json::array();
-  for (size_t i = wish_.part; i < all; i += wish_.parts) {
+  for (size_t i = wish_.part; i < all && !isKnown; i += wish_.parts) {
     const Result<std::optional<FoundItem>> found = itemAt(i, stages);
     if (!found) return Error{found.error()};
     if (!found.value()) return Ok{};
@@ -199,7 +202,9 @@ Status Run::respondPart(Stages& stages) {
   }
   const nlohmann::ordered_json told = {
       {"part", wish_.part + 1}, {"parts", wish_.parts}, {"solutions", solutions}, {"all", all}};
-  news_.line(fmt::format("part {} of {}: {} of {} solutions", wish_.part + 1, wish_.parts, solutions.size(), all));
+  news_.line(
+      isKnown ? "the response of all candidates is known from before"
+              : fmt::format("part {} of {}: {} of {} solutions", wish_.part + 1, wish_.parts, solutions.size(), all));
   return writeWhole(wish_.folder / partFile(wish_.part, wish_.parts), told.dump() + "\n");
 }
 

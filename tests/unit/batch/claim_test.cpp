@@ -95,6 +95,17 @@ TEST_F(BatchClaim, ThatWasTakenOverIsNoLongerHeld) {
   EXPECT_TRUE(mine.holds(kId));
 }
 
+// Letting go can fail for a moment, as on NFS: what is still its own is no other's.
+TEST_F(BatchClaim, OfItsOwnIsTakenAgain) {
+  Claims mine(folder_);
+  ASSERT_TRUE(mine.take(kId).value());
+  const std::string claim = testing::readFile(folder_.claims() / kId);
+  mine.release(kId);
+  testing::writeFile(folder_.claims() / kId, claim);
+  EXPECT_TRUE(mine.take(kId).value());
+  EXPECT_FALSE(mine.take(kId).value()) << "a task that is listed twice";
+}
+
 TEST_F(BatchClaim, OfAnotherMachineIsTakenOverWithoutASignOfLife) {
   Claims there(folder_, 300, other("there")), mine(folder_);
   ASSERT_TRUE(there.take(kId).value());

@@ -162,7 +162,7 @@ TEST_F(BatchCommand, AStudyIsMeasuredViewByView) {
   merged = batch({"merge", folder_});
   ASSERT_EQ(merged.exitStatus, 0) << merged.err;
   ASSERT_EQ(cases().size(), 2u);
-  for (const auto& one : cases()) EXPECT_FALSE(one["curves"][0]["points"].empty()) << one;
+  for (const auto& view : cases()) EXPECT_FALSE(view["curves"][0]["points"].empty()) << view;
   EXPECT_NE(readFile(folder_ + "/merged/index.html").find("rooms/study.html"), std::string::npos);
 }
 

@@ -1,6 +1,7 @@
 // `roomlight study` from outside.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -158,6 +159,20 @@ TEST(StudyCommand, refusesWhatItCannotUse) {
     EXPECT_NE(run.err.find(expected), std::string::npos) << run.err;
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(StudyCommand, reportsOfOtherOptionsLeaveThoseThatAreThere) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(runProgram(command(folder, {"--only", "Room/own"})).exitStatus, 0);
+  const std::string report = readFile(folder / "out/study.csv");
+  EXPECT_EQ(runProgram(command(folder, {"--only", "Room/own", "--report-only"})).exitStatus, 0);
+  EXPECT_EQ(readFile(folder / "out/study.csv"), report);
+  std::vector<std::string> words = command(folder, {"--report-only"});
+  std::replace(words.begin(), words.end(), std::string("32x18"), std::string("16x16"));
+  const ProgramRun other = runProgram(words);
+  EXPECT_EQ(other.exitStatus, 1);
+  EXPECT_NE(other.err.find("was not measured"), std::string::npos) << other.err;
+  EXPECT_EQ(readFile(folder / "out/study.csv"), report);
 }
 
 }  // namespace

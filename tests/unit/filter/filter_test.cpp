@@ -105,6 +105,26 @@ TEST(Filter, boundsEdgesByWhatIsAroundThem) {
   EXPECT_EQ(image.at(20, 5), before.at(20, 5));
 }
 
+// Pixels on the border of a picture have fewer neighbours, and are on no edge for that; a panorama has no border there.
+TEST(Filter, bordersOfAPictureAreNoEdges) {
+  FilterInput in = noisyWall(12, 8, 10, 0);
+  Image image = composed(in);
+  for (const auto& [x, y] : {std::pair(0, 4), std::pair(6, 0), std::pair(11, 7)}) image.at(x, y) = Vec3(7);
+  const Image before = image;
+  boundEdges(in, image);
+  EXPECT_EQ(image.pixels, before.pixels);
+  for (int y = 0; y < 8; ++y) in.at(11, y).position.z = 1;
+  in.wraps = true;
+  boundEdges(in, image);
+  EXPECT_EQ(image.at(6, 0), Vec3(7));
+  EXPECT_EQ(image.at(11, 7), Vec3(5)) << "another surface than all beside it";
+  FilterInput one = noisyWall(1, 1, 10, 0);
+  Image single = composed(one);
+  boundEdges(one, single);
+  EXPECT_EQ(single.at(0, 0), Vec3(5));
+  EXPECT_NEAR(luminance(filtered(one, 5).at(0, 0)), 5, 1e-3f);
+}
+
 TEST(Filter, rareLightStopsWhereOtherLightDiffers) {
   FilterInput in = noisyWall(128, 64, 10, 0);
   for (int y = 0; y < 64; ++y) {

@@ -18,7 +18,7 @@ class ResponseTest : public ::testing::Test {
                             problem_->file.study(),
                             problem_->candidates,
                             problem_->meters,
-                            {.tolerance = 0.005, .mostSamples = 4096}};
+                            {.render = RenderSettings(), .tolerance = 0.005, .mostSamples = 4096}};
     std::vector<ResponseItem> items;
     for (size_t i = 0; i < itemCount(p); ++i) {
       auto item = findItem(p, i, stages);

@@ -121,6 +121,17 @@ TEST_F(RunInAFolder, PartsOfOtherProcessesMakeItsResponse) {
   EXPECT_TRUE(warnings_.empty()) << warnings_[0];
 }
 
+TEST_F(RunInAFolder, APartOfAResponseThatIsKnownIsNotFoundAgain) {
+  wish_.evaluations = 1000, wish_.certified = 0;
+  EXPECT_FALSE(responds());
+  optimise::Run run(wish_, news());
+  ASSERT_TRUE(run.read());
+  ASSERT_TRUE(run.respondPart(stages_));
+  EXPECT_TRUE(isKept(optimise::Run::partFile(0, 1)));
+  for (const auto& file : std::filesystem::directory_iterator(wish_.folder))
+    EXPECT_NE(file.path().extension(), ".item") << file.path();
+}
+
 TEST_F(RunInAFolder, StoppedBeforeItsResponseIsWholeItKeepsNothing) {
   for (const char* stage : {"bvh", "illuminate"}) {
     cancelIn_ = stage, stop_ = false;
