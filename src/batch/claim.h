@@ -53,7 +53,8 @@ class Claims {
   // A sign of life of all that are held, if the last was kBeatS ago.
   void beat();
 
-  // Removes what processes that were killed have left: claims half made, and those of tasks that are done.
+  // Removes what processes that were killed have left: claims half made, and those of tasks that are done. Looks at all
+  // claims.
   void sweep() const;
 
   std::vector<Claim> all() const;

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "base/write_file.h"
+#include "batch/claim.h"
 #include "batch/durable.h"
 
 namespace roomlight::batch {
@@ -258,6 +259,9 @@ std::string FileNames::of(const std::string& text) {
   return count == 1 ? name : fmt::format("{}_{}", name, count);
 }
 
-Result<Merged> mergeBatch(const TaskList& list, const fs::path& program) { return Merger(list, program).merge(); }
+Result<Merged> mergeBatch(const TaskList& list, const fs::path& program) {
+  Claims(list.folder()).sweep();
+  return Merger(list, program).merge();
+}
 
 }  // namespace roomlight::batch

@@ -37,7 +37,8 @@ class Runner {
   Runner(const TaskList& list, const RunWish& wish)
       : list_(list), folder_(list.folder()), wish_(wish), claims_(list.folder(), wish.staleS), owner_(thisOwner()) {
     waiting_.assign(wish.tasks.begin(), wish.tasks.end());
-    claims_.sweep();
+    // Not by every job of an array: each would look at the claims of all others.
+    if (wish.tasks.size() == list.size()) claims_.sweep();
   }
 
   Result<RunResult> run() {
