@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <sstream>
 
 #include "arguments.h"
 #include "base/parallel.h"
+#include "base/system_facts.h"
 #include "commands.h"
 #include "console.h"
 #include "engine/settings.h"
@@ -25,6 +25,8 @@ namespace roomlight::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kGib = 1 << 30;
 
 struct DoctorOptions {
   bool json = false, quick = false;
@@ -76,37 +78,19 @@ std::vector<Finding> lookAround() {
   };
 }
 
-// The first line of a file of the system that starts so, from behind the colon or what it starts with.
-std::string valueOf(const char* file, const std::string& key) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with(key)) continue;
-    const size_t from = line.find_first_not_of(" \t:", key.size());
-    return from == std::string::npos ? "" : line.substr(from);
-  }
-  return {};
-}
-
-std::optional<double> gibOf(const std::string& key) {
-  const std::string text = valueOf("/proc/meminfo", key);
-  const std::optional<double> kib = parseNumber<double>(text.substr(0, text.find(' ')));
-  if (!kib) return std::nullopt;
-  return *kib / (1 << 20);
-}
-
 // Of the machine, or of the container that this runs in where that has less.
 std::optional<double> memoryGib() {
-  std::optional<double> memory = gibOf("MemTotal");
-  const std::optional<double> limit = parseNumber<double>(valueOf("/sys/fs/cgroup/memory.max", ""));
-  if (limit) memory = std::min(memory.value_or(kInfinity), *limit / (1 << 30));
-  return memory;
+  std::optional<double> bytes = memoryBytes("MemTotal");
+  const std::optional<double> limit = parseNumber<double>(systemValue("/sys/fs/cgroup/memory.max", ""));
+  if (limit) bytes = std::min(bytes.value_or(kInfinity), *limit);
+  return bytes ? std::optional(*bytes / kGib) : std::nullopt;
 }
 
 Json machineJson() {
-  const std::string name = valueOf("/proc/cpuinfo", "model name");
+  const std::string name = systemValue("/proc/cpuinfo", "model name");
   const std::optional<double> memory = memoryGib();
-  std::optional<double> available = gibOf("MemAvailable");
-  if (available && memory) available = std::min(*available, *memory);
+  std::optional<double> available = memoryBytes("MemAvailable");
+  if (available) available = std::min(*available / kGib, memory.value_or(kInfinity));
   return {{"version", version()},
           {"builtFor", builtForProcessor()},
           {"processor", name.empty() ? Json() : Json(name)},

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,6 +12,7 @@
 
 #include "arguments.h"
 #include "base/image_io.h"
+#include "base/system_facts.h"
 #include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
@@ -108,17 +108,6 @@ Status narrow(const StudyOptions& o, StudyPlan& plan) {
   return Ok{};
 }
 
-std::string firstValue(const char* file, const std::string& key) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with(key)) continue;
-    const size_t colon = line.find(':');
-    const size_t from = line.find_first_not_of(" \t", colon + 1);
-    return from == std::string::npos ? "" : line.substr(from);
-  }
-  return "unknown";
-}
-
 Result<StudySettings> settingsOf(const StudyOptions& o) {
   StudySettings s;
   s.runs = o.runs, s.mostSeconds = o.mostSeconds, s.walkFrames = o.walkFrames;
@@ -132,8 +121,9 @@ Result<StudySettings> settingsOf(const StudyOptions& o) {
     if (!e) return Error{e.error()};
     s.externals.push_back(e.value());
   }
+  const std::string processor = systemValue("/proc/cpuinfo", "model name");
   s.program = fmt::format("roomlight {} {}, {} threads of {}", version(), contentHash(thisProgram()),
-                          std::thread::hardware_concurrency(), firstValue("/proc/cpuinfo", "model name"));
+                          std::thread::hardware_concurrency(), processor.empty() ? "unknown" : processor);
   return s;
 }
 

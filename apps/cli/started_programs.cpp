@@ -7,9 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "batch/child.h"
 #include "console.h"
@@ -19,8 +17,6 @@ extern char** environ;
 
 namespace roomlight::cli {
 namespace {
-
-constexpr auto kAskEvery = std::chrono::milliseconds(20);
 
 bool hasDesktop() { return getenv("DISPLAY") || getenv("WAYLAND_DISPLAY"); }
 
@@ -81,15 +77,7 @@ std::filesystem::path thisProgram() {
 
 Status runThisProgram(const std::vector<std::string>& arguments, const std::atomic<bool>& cancelled) {
   std::error_code code;
-  Result<batch::Child> child = batch::Child::start(thisProgram(), arguments, std::filesystem::current_path(code), {});
-  if (!child) return Error{child.error()};
-  while (!child.value().hasEnded()) {
-    if (cancelled) child.value().kill("interrupted");
-    std::this_thread::sleep_for(kAskEvery);
-  }
-  const batch::Ended& ended = child.value().ended();
-  if (!ended.isDone) return Error{ended.line};
-  return Ok{};
+  return batch::runToItsEnd(thisProgram(), arguments, std::filesystem::current_path(code), &cancelled);
 }
 
 }  // namespace roomlight::cli

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <thread>
 
 #include "base/utf8.h"
 
@@ -183,6 +184,19 @@ void Child::judge(int status) {
              : said.empty()              ? fmt::format("ended with status {}", e.exitStatus)
                                          : said;
   }
+}
+
+Status runToItsEnd(const std::filesystem::path& program, const std::vector<std::string>& words,
+                   const std::filesystem::path& folder, const std::atomic<bool>* cancelled) {
+  constexpr auto kAskEvery = std::chrono::milliseconds(20);
+  Result<Child> child = Child::start(program, words, folder, {});
+  if (!child) return Error{child.error()};
+  while (!child.value().hasEnded()) {
+    if (cancelled && *cancelled) child.value().kill("interrupted");
+    std::this_thread::sleep_for(kAskEvery);
+  }
+  const Ended& ended = child.value().ended();
+  return ended.isDone ? Status(Ok{}) : Error{ended.line};
 }
 
 }  // namespace roomlight::batch

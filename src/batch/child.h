@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -49,5 +50,10 @@ class Child {
   std::chrono::steady_clock::time_point started_;
   Ended ended_;
 };
+
+// Runs it to its end, its output thrown away. Where `cancelled`, if given, becomes true it is killed. Errors: what it
+// said last, that it was killed, or "interrupted".
+Status runToItsEnd(const std::filesystem::path& program, const std::vector<std::string>& words,
+                   const std::filesystem::path& folder, const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace roomlight::batch

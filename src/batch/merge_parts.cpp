@@ -2,8 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
+#include <cctype>
 
 #include "base/write_file.h"
 #include "batch/child.h"
@@ -15,8 +14,6 @@ namespace roomlight::batch {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr auto kAskEvery = std::chrono::milliseconds(20);
 
 // The words of a task without the option that says which part, for all of it in this folder.
 std::vector<std::string> wordsOfWhole(const Task& task, const std::string& option, const std::string& folder) {
@@ -51,14 +48,6 @@ Status addRuns(const fs::path& from, const fs::path& to, bool& differs) {
     }
   }
   return Ok{};
-}
-
-// Errors: the last line that the program said.
-Status runToItsEnd(const fs::path& program, const std::vector<std::string>& words, const fs::path& folder) {
-  Result<Child> child = Child::start(program, words, folder, {});
-  if (!child) return Error{child.error()};
-  while (!child.value().hasEnded()) std::this_thread::sleep_for(kAskEvery);
-  return child.value().ended().isDone ? Status(Ok{}) : Error{child.value().ended().line};
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <exception>
-#include <fstream>
 #include <limits>
 #include <random>
 
 #include "base/image_io.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/system_facts.h"
 #include "look/display.h"
 
 namespace roomlight::view {
@@ -99,12 +99,7 @@ bool RenderJobs::cancel(const std::string& job) {
 }
 
 double RenderJobs::bytesToSpare() {
-  std::ifstream in("/proc/meminfo");
-  std::string key;
-  for (double kib = 0; in >> key >> kib; in.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
-    if (key == "MemAvailable:") return kib * 1024;
-  }
-  return std::numeric_limits<double>::infinity();
+  return memoryBytes("MemAvailable").value_or(std::numeric_limits<double>::infinity());
 }
 
 bool RenderJobs::busy() const {
