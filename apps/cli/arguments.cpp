@@ -60,12 +60,6 @@ std::optional<double> parseBytes(const std::string& text) {
   return std::nullopt;
 }
 
-std::string lowerExtension(const std::filesystem::path& file) {
-  std::string e = file.extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e;
-}
-
 Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape,
                                      std::initializer_list<size_t> counts) {
   std::vector<float> numbers;

@@ -13,6 +13,7 @@
 #include "base/result.h"
 #include "engine/settings.h"
 #include "home/open_home.h"
+#include "still/picture_file.h"
 
 namespace roomlight::cli {
 
@@ -46,8 +47,6 @@ Result<RenderSettings> readSettings(const SettingsOptions& o, RenderSettings set
 
 // "2GB", "1.5 GiB", "800MB"; none: not a size.
 std::optional<double> parseBytes(const std::string& text);
-
-std::string lowerExtension(const std::filesystem::path& file);
 
 // Files that are written must differ from each other and from those that are read; empty names are none.
 Status checkDistinct(const std::vector<std::string>& files);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "arguments.h"
+#include "base/platform/module.h"
 #include "batch/durable.h"
 #include "batch/merge.h"
 #include "batch/plan_file.h"
@@ -84,7 +85,7 @@ Result<std::vector<size_t>> tasksToRun(const BatchOptions& o, const batch::TaskL
 }
 
 // Two builds of one version may differ in the last bit of a picture.
-std::string thisBuild() { return fmt::format("{} (build {})", version(), batch::InputHashes().of(thisProgram())); }
+std::string thisBuild() { return fmt::format("{} (build {})", version(), buildId()); }
 
 std::string plural(size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");

@@ -8,6 +8,7 @@
 #include "console.h"
 #include "output_files.h"
 #include "picture_options.h"
+#include "still/developed.h"
 
 namespace roomlight::cli {
 namespace {

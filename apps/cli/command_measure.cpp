@@ -168,19 +168,6 @@ Status writeMeasureReports(const MeasureOptions& o, const MeasurePlan& plan, con
   return first;
 }
 
-// A second time, under an overcast sky. The lamps are back afterwards: reports show them.
-Status measureDaylight(const MeasurePlan& plan, MeasuredHome& home, Measurements& m, Stages& stages) {
-  std::vector<Lamp> lamps = home.scene.lamps;
-  std::vector<Material> materials = home.scene.materials;
-  lightByOvercastSky(home.scene, home.meters.groundReflectance);
-  const Result<std::unique_ptr<LitScene>> lit = lightScene(home.scene, plan.render, stages, {.changes = false});
-  if (!lit) return Error{lit.error()};
-  if (lit.value()) addDaylight(m, *lit.value(), plan.measure.meters, stages);
-  home.scene.lamps = std::move(lamps);
-  home.scene.materials = std::move(materials);
-  return Ok{};
-}
-
 int workMeasure(const MeasureOptions& o, const MeasurePlan& plan) {
   ProgressDisplay display(o.quiet);
   const RenderProgress progress{
@@ -205,7 +192,10 @@ int workMeasure(const MeasureOptions& o, const MeasurePlan& plan) {
     picture =
         stages.run("picture", [&](const Progress&) { return pictureFor(home.value().scene, plan.render.threads); });
   if (o.daylightFactor) {
-    if (const Status s = measureDaylight(plan, home.value(), m, stages); !s) return failed(s.error());
+    if (const Status s = measureDaylight(home.value().scene, home.value().meters.groundReflectance, plan.render,
+                                         plan.measure.meters, m, stages);
+        !s)
+      return failed(s.error());
     if (interrupted()) return stopped();
   }
   if (!o.quiet) printWarnings(m.warnings);

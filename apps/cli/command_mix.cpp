@@ -12,8 +12,9 @@
 #include "engine/settings.h"
 #include "exit_status.h"
 #include "mix/layer_info.h"
-#include "mix_home.h"
+#include "mix_pictures.h"
 #include "output_files.h"
+#include "picture_options.h"
 
 namespace roomlight::cli {
 namespace {

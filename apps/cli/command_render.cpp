@@ -18,6 +18,10 @@
 #include "home/cameras.h"
 #include "exit_status.h"
 #include "output_files.h"
+#include "still/cameras.h"
+#include "still/developed.h"
+#include "still/layers_file.h"
+#include "still/picture_file.h"
 #include "look/exposure.h"
 #include "measure/false_colour.h"
 #include "scene/find_named.h"
@@ -85,10 +89,10 @@ Status applyLayerGroups(const RenderOptions& o, RenderSettings& settings) {
 // The cameras that light is found for decide, as they would in a process that takes pictures of them all.
 Result<home::OpenWish> openWishOf(const RenderOptions& o) {
   std::vector<std::string> cameras = o.light.lightFor.empty() ? o.cameras : o.light.lightFor;
-  const std::string first = cameras.empty() || meansAll(cameras) ? "" : cameras.front();
+  const std::string first = cameras.empty() || meansAllCameras(cameras) ? "" : cameras.front();
   Result<home::OpenWish> open = readSceneOptions(o, first);
   if (!open) return open;
-  open.value().allCameras = meansAll(cameras) || meansAll(o.cameras);
+  open.value().allCameras = meansAllCameras(cameras) || meansAllCameras(o.cameras);
   if (!o.light.lightFor.empty()) cameras.insert(cameras.end(), o.cameras.begin(), o.cameras.end());
   if (!open.value().allCameras && cameras.size() > 1)
     open.value().moreCameras.assign(cameras.begin() + 1, cameras.end());
@@ -139,49 +143,11 @@ std::string dump(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-std::string toText(Vec3 v) { return fmt::format("{:.4f} {:.4f} {:.4f}", v.x, v.y, v.z); }
-
-Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const Camera& camera,
-                           const Rendered& rendered, float ev100, const White& white) {
-  auto times = nlohmann::ordered_json::object();
-  for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
-  RenderSettings settings = plan.settings;
-  if (o.reproducible) settings.threads = 0;  // a picture is the same with any number
-  Metadata metadata = {{"roomlight.version", version()},
-                       {"roomlight.settings", settingsToJson(settings)},
-                       {"roomlight.seed", std::to_string(plan.settings.seed)},
-                       {"roomlight.timesMs", dump(times, -1)},
-                       {"roomlight.scene", o.scene},
-                       {"roomlight.lighting", o.lighting},
-                       {"roomlight.camera", camera.name},
-                       {"roomlight.view", o.view.view},
-                       {"roomlight.exposureEv100", fmt::format("{}", ev100)},
-                       {"roomlight.tone", std::string(toneCurveName(plan.display.tone.curve))},
-                       {"roomlight.whiteK", fmt::format("{:.0f}", white.kelvin)},
-                       {"roomlight.whiteGains", toText(white.gains)},
-                       {kLightColourKey, toText(rendered.lightColour)},
-                       {"roomlight.complete", rendered.complete ? "true" : "false"}};
-  if (camera.projection == Projection::Orthographic)
-    metadata["roomlight.metresPerPixel"] =
-        fmt::format("{}", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel());
-  if (o.reproducible) metadata.erase("roomlight.timesMs");
-  if (camera.cutHeightM < kInfinity) metadata["roomlight.cutHeightM"] = fmt::format("{}", camera.cutHeightM);
-  return metadata;
-}
-
 // What all pictures of a call have in common.
 struct RenderTask {
   const RenderOptions& options;
   const RenderPlan& plan;
   const Scene& scene;  // as opened, whole
-};
-
-// How a picture for displays is made of its light.
-struct Development {
-  const Display& display;
-  White white;
-  float ev100 = 0;
-  std::vector<bool> rooms;  // of plans: the pixels inside rooms; empty: every other picture
 };
 
 // A picture, and the files it goes into.
@@ -206,53 +172,21 @@ Status writeLuminance(const RenderOptions& o, const Shot& shot, const Rendered& 
   return Ok{};
 }
 
-// What viewers know panoramas by (Google's Photo Sphere XMP metadata).
-std::string panoramaXmp(int width, int height) {
-  return fmt::format(
-      "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?><x:xmpmeta "
-      "xmlns:x=\"adobe:ns:meta/\"><rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
-      "<rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
-      "GPano:ProjectionType=\"equirectangular\" GPano:UsePanoramaViewer=\"True\" "
-      "GPano:FullPanoWidthPixels=\"{0}\" GPano:FullPanoHeightPixels=\"{1}\" GPano:CroppedAreaImageWidthPixels=\"{0}\" "
-      "GPano:CroppedAreaImageHeightPixels=\"{1}\" "
-      "GPano:CroppedAreaLeftPixels=\"0\" GPano:CroppedAreaTopPixels=\"0\"/></rdf:RDF></x:xmpmeta><?xpacket end=\"w\"?>",
-      width, height);
-}
-
-Status writePicture(const std::string& out, const Camera& camera, const Rendered& rendered, const Development& how,
-                    Metadata metadata) {
-  const std::string extension = lowerExtension(out);
-  if (extension == ".exr") return writeExr(out, rendered.image, metadata);
-  Image light = unmixed(rendered.image, rendered.sights);
-  if (!how.rooms.empty()) holdGrounds(light, how.rooms, how.ev100);
-  const Image display = displayed(light, how.display, how.white, how.ev100);
-  const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
-  if (extension == ".jpg")
-    return writeJpeg(out, drawn(display, rendered.sights, kSectionColour, kPaperColour), SIZE_MAX, xmp);
-  if (!xmp.empty()) metadata["XML:com.adobe.xmp"] = xmp;
-  std::vector<float> alpha;
-  if (camera.emptyBackdrop) {
-    for (const float nothing : rendered.sights.backdrop) alpha.push_back(1 - nothing);
-  }
-  return writePng(out, drawn(display, rendered.sights, kSectionColour, std::nullopt), metadata, alpha);
-}
-
 // Writes all outputs; returns the EV100 that they are exposed for.
 Result<float> writePictures(const RenderTask& task, const Shot& shot, Rendered& rendered) {
   const RenderOptions& o = task.options;
   const RenderPlan& plan = task.plan;
   const Camera& camera = shot.camera;
-  const std::vector<bool> rooms = roomMask(task.scene, camera, rendered.image.width, rendered.image.height);
-  const float ev100 = ev100Of(plan.display, rooms.empty() ? rendered.image : pixelsWhere(rendered.image, rooms, true));
-  const White white = whiteOf(plan.display, rendered.lightColour);
-  const Metadata metadata = metadataOfPicture(o, plan, camera, rendered, ev100, white);
+  const Development development = developmentOf(task.scene, camera, rendered, plan.display);
+  const float ev100 = development.ev100;
+  const Metadata metadata =
+      metadataOf({plan.settings, o.scene, o.lighting, o.view.view, o.reproducible}, camera, rendered, development);
   if (o.kind != "picture") {
     const Status s = writeLuminance(o, shot, rendered, metadata);
     return s ? Result<float>(ev100) : Error{s.error()};
   }
   std::optional<LayeredImage> layered;
   if (plan.settings.layers) layered = layeredImage(task.scene, camera, rendered, metadata);
-  const Development development{plan.display, white, ev100, rooms};
   for (const std::string& out : shot.outputs) {
     const Status s = layered && lowerExtension(out) == ".exr"
                          ? writeLayers(out, *layered)
@@ -269,32 +203,6 @@ Status writeStats(const std::string& file, const RenderStats& stats, double tota
                     dump({{"stages", stagesJson(stats.stages)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
 }
 
-// What is rendered: the scene under its light, and from where.
-struct HomeInView {
-  home::OpenedHome opened;
-  std::vector<Camera> cameras;   // of the pictures
-  std::vector<Camera> lightFor;  // that light is found for
-};
-
-bool isAmong(const std::vector<Camera>& cameras, const Camera& camera) {
-  return std::any_of(cameras.begin(), cameras.end(),
-                     [&](const Camera& c) { return c.name == camera.name && seeTheSame(c, camera); });
-}
-
-// Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and
-// plans see all rooms. Who takes a picture from elsewhere than light is found for needs the whole.
-std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
-  if (findTechnique(plan.settings.technique)->role == TechniqueRole::Judge || plan.settings.layers) return std::nullopt;
-  const auto seesAll = [](const Camera& c) {
-    return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity;
-  };
-  if (std::any_of(home.lightFor.begin(), home.lightFor.end(), seesAll) ||
-      !std::all_of(home.cameras.begin(), home.cameras.end(),
-                   [&](const Camera& c) { return isAmong(home.lightFor, c); }))
-    return std::nullopt;
-  return home::withinReach(RayScene(home.opened.scene), home.lightFor);
-}
-
 // Of the camera's view: what a first picture is judged by.
 void addView(const Scene& scene, const Camera& camera, RenderStats& stats) {
   const RayScene rays(scene);
@@ -304,59 +212,25 @@ void addView(const Scene& scene, const Camera& camera, RenderStats& stats) {
   stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, scene.rooms, camera, sights) ? 1 : 0);
 }
 
-// What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first
-// two qualities are without ray tracing, the last is for keeping.
-void applyPhoto(const RenderOptions& o, const PhotoWish& photo, RenderPlan& plan) {
-  RenderSettings& s = plan.settings;
-  if (!plan.view.size) s.width = photo.widthPx, s.height = photo.heightPx;
-  if (!o.quality.empty() || !o.settingsFile.empty()) return;
-  const float voxelSizeM = s.voxel.voxelSizeM;
-  applyQuality(photo.quality < 2 ? "draft" : photo.quality == 2 ? "good" : "best", s);
-  s.voxel.voxelSizeM = voxelSizeM;
-}
-
-// Those asked for, each once; the default one where none is.
-Result<std::vector<Camera>> camerasOf(const std::vector<std::string>& names, const Scene& scene) {
-  if (meansAll(names) &&
-      std::none_of(scene.cameras.begin(), scene.cameras.end(), [](const Camera& c) { return c.name == kAllCameras; })) {
-    return scene.cameras.empty() ? std::vector<Camera>{defaultCamera(scene)} : scene.cameras;
-  }
-  std::vector<Camera> out;
-  for (const std::string& name : names.empty() ? std::vector<std::string>{""} : names) {
-    const Result<Camera> camera = findCamera(scene, name);
-    if (!camera) return Error{camera.error()};
-    if (!isAmong(out, camera.value())) out.push_back(camera.value());
-  }
-  return out;
-}
-
-// As `wish` says, of the cameras with these names.
-Result<std::vector<Viewed>> viewsOf(const std::vector<std::string>& names, const home::OpenedHome& opened,
-                                    const RenderSettings& settings, const ViewWish& wish) {
-  const Scene& scene = opened.scene;
-  const Result<std::vector<Camera>> cameras = camerasOf(names, scene);
-  if (!cameras) return Error{cameras.error()};
-  std::vector<Viewed> out;
-  for (const Camera& camera : cameras.value()) {
-    const Result<Viewed> viewed = makeView(scene, scene.rooms, camera, !names.empty() || opened.placed(),
-                                           {settings.width, settings.height}, wish);
-    if (!viewed) return Error{viewed.error()};
-    out.push_back(viewed.value());
-  }
-  return out;
-}
+// What is rendered: the scene under its light, and from where.
+struct HomeInView {
+  home::OpenedHome opened;
+  std::vector<Camera> cameras;   // of the pictures
+  std::vector<Camera> lightFor;  // that light is found for
+};
 
 Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
   Result<home::OpenedHome> opened = home::openHome(plan.open);
   if (!opened) return Error{opened.error()};
   HomeInView out{std::move(opened.value()), {}, {}};
-  if (out.opened.photo) applyPhoto(o, *out.opened.photo, plan);
+  if (out.opened.photo)
+    takePhotoWish(*out.opened.photo, plan.view.size.has_value(), !o.quality.empty() || !o.settingsFile.empty(),
+                  plan.settings);
   // A picture that is taken from elsewhere than where a camera stands leaves these as they are placed.
   const ViewWish& wish = plan.view;
-  const bool isElsewhere = wish.eye || !wish.room.empty() || wish.view == View::Top || wish.view == View::Plan;
   Result<std::vector<Viewed>> views = std::vector<Viewed>();
   if (!o.light.lightFor.empty()) {
-    views = viewsOf(o.light.lightFor, out.opened, plan.settings, isElsewhere ? ViewWish() : wish);
+    views = viewsOf(o.light.lightFor, out.opened, plan.settings, isElsewhere(wish) ? ViewWish() : wish);
     if (!views) return Error{fmt::format("{}: --light-for: {}", o.scene, views.error())};
     for (const Viewed& v : views.value()) out.lightFor.push_back(v.camera);
   }
@@ -473,8 +347,8 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   };
   if (interrupted()) return noPicture();
 
-  const std::optional<Scene> part =
-      loading.run("reach", [&](const Progress&) { return partInReach(home.value(), plan); });
+  const std::optional<Scene> part = loading.run(
+      "reach", [&](const Progress&) { return partInReach(scene, plan.settings, home.value().cameras, lightFor); });
   if (part)
     display.line(fmt::format("of {} triangles those are used whose light comes to the camera{}: {}",
                              scene.triangleCount(), lightFor.size() > 1 ? "s" : "", part->triangleCount()));

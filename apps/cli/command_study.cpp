@@ -12,6 +12,7 @@
 
 #include "arguments.h"
 #include "base/image_io.h"
+#include "base/platform/module.h"
 #include "base/system_facts.h"
 #include "base/write_file.h"
 #include "commands.h"
@@ -122,7 +123,7 @@ Result<StudySettings> settingsOf(const StudyOptions& o) {
     s.externals.push_back(e.value());
   }
   const std::string processor = systemValue("/proc/cpuinfo", "model name");
-  s.program = fmt::format("roomlight {} {}, {} threads of {}", version(), contentHash(thisProgram()),
+  s.program = fmt::format("roomlight {} {}, {} threads of {}", version(), buildId(),
                           std::thread::hardware_concurrency(), processor.empty() ? "unknown" : processor);
   return s;
 }

@@ -47,8 +47,4 @@ Result<std::optional<LightStore>> readLightStore(const LightOptions& o, const Re
   return std::optional(std::move(store));
 }
 
-bool meansAll(const std::vector<std::string>& cameras) {
-  return std::find(cameras.begin(), cameras.end(), kAllCameras) != cameras.end();
-}
-
 }  // namespace roomlight::cli

@@ -14,8 +14,6 @@
 
 namespace roomlight::cli {
 
-constexpr const char* kAllCameras = "all";
-
 struct LightOptions {
   std::vector<std::string> lightFor;  // cameras; none: those of the pictures
   std::string folder;  // empty: light is not shared
@@ -27,8 +25,5 @@ void addLightOptions(CLI::App& app, LightOptions& options);
 // Everything that can be known to be wrong without the scene. None: light is not shared, and stderr says why where that
 // was asked for.
 Result<std::optional<LightStore>> readLightStore(const LightOptions& options, const RenderSettings& settings);
-
-// Whether one of the names means every camera.
-bool meansAll(const std::vector<std::string>& cameras);
 
 }  // namespace roomlight::cli

@@ -1,10 +1,13 @@
-#include "mix_home.h"
+#include "mix_pictures.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 
+#include "arguments.h"
 #include "base/parallel.h"
 #include "base/write_file.h"
 #include "commands.h"
@@ -68,6 +71,29 @@ Status writePages(const FloorPlan& plan, const OverlayTrial& trial, const Overla
 }
 
 }  // namespace
+
+std::string layerTable(const std::vector<LayerInfo>& layers) {
+  size_t widest = 4;
+  for (const LayerInfo& l : layers) widest = std::max(widest, l.name.size());
+  std::string table = fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", "name", widest, "kind", "colour", "flux",
+                                  "linear RGB", "room");
+  for (const LayerInfo& l : layers) {
+    const std::string kelvin = l.kelvin ? fmt::format("{:.0f} K", *l.kelvin) : "-",
+                      flux = l.fluxLm ? fmt::format("{:.0f} lm", *l.fluxLm) : "-";
+    const std::string rgb = fmt::format("{:.3f} {:.3f} {:.3f}", l.colour.x, l.colour.y, l.colour.z);
+    table += fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", l.name, widest, l.kind, kelvin, flux, rgb,
+                         l.room.empty() ? "-" : l.room);
+  }
+  return table;
+}
+
+Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata,
+                  float webpQuality) {
+  const std::string e = lowerExtension(file);
+  if (e == ".webp") return writeWebp(file, image, webpQuality);
+  if (e == ".jpg") return writeJpeg(file, image, std::numeric_limits<size_t>::max());
+  return writePng(file, image, metadata);
+}
 
 std::filesystem::path sensorsFileOf(const std::filesystem::path& cardFile) {
   return cardFile.parent_path() / (cardFile.stem().string() + "_sensors.yaml");

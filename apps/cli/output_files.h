@@ -1,4 +1,4 @@
-// What the program writes: files, checked before the work; JSON; light layers.
+// What the program writes: files, checked before the work; JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "base/image_layers.h"
 #include "base/result.h"
 #include "engine/render.h"
 
@@ -27,9 +26,5 @@ using Json = nlohmann::ordered_json;
 
 // Time and memory of each stage.
 Json stagesJson(std::span<const StageStats> stages);
-
-// Light layers on their way into a file (docs/reference/layers.md). `metadata` is that of the picture; what the layers
-// are is added to it. Takes the pictures out of `rendered.layers`.
-LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& rendered, Metadata metadata);
 
 }  // namespace roomlight::cli

@@ -88,14 +88,6 @@ Result<Display> readDisplay(const DisplayOptions& o) {
   return display;
 }
 
-std::optional<Vec3> lightColourIn(const Metadata& metadata) {
-  const auto found = metadata.find(kLightColourKey);
-  if (found == metadata.end()) return std::nullopt;
-  std::istringstream text(found->second);
-  Vec3 colour;
-  return text >> colour.x >> colour.y >> colour.z ? std::optional(colour) : std::nullopt;
-}
-
 namespace {
 
 Result<Vec3> parsePlace(const std::string& option, const std::string& text) {

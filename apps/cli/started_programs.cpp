@@ -9,6 +9,7 @@
 
 #include <fstream>
 
+#include "base/platform/module.h"
 #include "batch/child.h"
 #include "console.h"
 #include "output_files.h"
@@ -54,14 +55,14 @@ BrowserPage::~BrowserPage() {
   if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
-std::filesystem::path pageFolder(const std::string& installed, const std::string& built) {
+std::filesystem::path pageFolder(const std::string& name, const std::string& built) {
   std::error_code code;
-  const std::filesystem::path program = std::filesystem::read_symlink(thisProgram(), code).parent_path();
-  const std::filesystem::path places[] = {program / "../share/roomlight" / installed, program / "../../viewer" / built};
+  const std::filesystem::path places[] = {installed(std::filesystem::path("share/roomlight") / name),
+                                          programFolder() / "../../viewer" / built};
   for (const auto& place : places) {
     if (std::filesystem::exists(place / "index.html", code)) return std::filesystem::weakly_canonical(place, code);
   }
-  return places[0].lexically_normal();
+  return places[0];
 }
 
 std::string reportPlots() {

@@ -30,7 +30,6 @@ void writePng(const std::filesystem::path& file, const ByteImage& image, const M
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp);
 void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp);
 std::string encodeJpeg(const ByteImage& image, int quality);
-ByteImage bytesOf(const Image& encoded);  // values 0..1 clipped and rounded to 8 bits, three channels
 std::string encodeWebp(const ByteImage& image, float quality);
 void writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black

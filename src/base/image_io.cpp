@@ -1,5 +1,7 @@
 #include "base/image_io.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -113,6 +115,17 @@ Status writeExr(const std::filesystem::path& file, const Image& image, const Met
   return writeAtomically(file, [&](const auto& temporary) { formats::writeExr(temporary, image, metadata); });
 }
 
+ByteImage bytesOf(const Image& encoded, std::span<const float> alpha) {
+  const auto eightBits = [](float v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f)); };
+  ByteImage bytes(encoded.width, encoded.height, alpha.empty() ? 3 : 4);
+  auto* next = bytes.samples.data();
+  for (size_t i = 0; i < encoded.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) *next++ = eightBits(encoded.pixels[i][c]);
+    if (!alpha.empty()) *next++ = eightBits(alpha[i]);
+  }
+  return bytes;
+}
+
 Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata,
                 std::span<const float> alpha) {
   return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, encoded, metadata, alpha); });
@@ -147,7 +160,7 @@ Result<std::string> encodeJpeg(const ByteImage& image, int quality) {
 }
 
 Result<std::string> encodeJpeg(const Image& encoded, int quality) {
-  return guarded<std::string>("JPEG", [&] { return formats::encodeJpeg(formats::bytesOf(encoded), quality); });
+  return guarded<std::string>("JPEG", [&] { return formats::encodeJpeg(bytesOf(encoded), quality); });
 }
 
 Result<std::string> encodeWebp(const ByteImage& image, float quality) {

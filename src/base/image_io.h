@@ -25,6 +25,9 @@ Status writePng(const std::filesystem::path& file, const Image& encoded, const M
 Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes,
                  const std::string& xmp = {});
 
+// Values already display-encoded (0..1, sRGB), clipped and rounded to 8 bits; with `alpha`, as above, four channels.
+ByteImage bytesOf(const Image& encoded, std::span<const float> alpha = {});
+
 // Pictures of bytes as they are. JPEG takes three channels only. WebP: quality 0 to 100, of colour alone, alpha is
 // always exact; kLossless: every byte comes back, but for colours where alpha is 0.
 constexpr float kLossless = 101;

@@ -75,15 +75,6 @@ ImageSize readJpegSize(std::span<const uint8_t> bytes) {
   return checkedSize(Decoder(tjInitDecompress(), tjDestroy), bytes);
 }
 
-ByteImage bytesOf(const Image& encoded) {
-  ByteImage image(encoded.width, encoded.height, 3);
-  auto* next = image.samples.data();
-  for (const Vec3& p : encoded.pixels) {
-    for (int c = 0; c < 3; ++c) *next++ = static_cast<uint8_t>(std::clamp(p[c], 0.0f, 1.0f) * 255 + 0.5f);
-  }
-  return image;
-}
-
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) {
   formats::writeJpeg(file, bytesOf(encoded), mostBytes, xmp);
 }

@@ -118,16 +118,9 @@ bool readRgba(Bytes& bytes, png_uint_32 width, png_uint_32 height, uint8_t* rgba
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata,
               std::span<const float> alpha) {
   if (encoded.width < 1 || encoded.height < 1) throw std::runtime_error("a picture without pixels cannot be written");
-  const auto eightBits = [](float v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f)); };
-  ByteImage bytes(encoded.width, encoded.height, alpha.empty() ? 3 : 4);
-  auto* next = bytes.samples.data();
-  for (size_t i = 0; i < encoded.pixels.size(); ++i) {
-    const Vec3 p = encoded.pixels[i];
-    if (!isFinite(p)) throw std::runtime_error("a pixel is not a finite number; no PNG can hold it");
-    for (int c = 0; c < 3; ++c) *next++ = eightBits(p[c]);
-    if (!alpha.empty()) *next++ = eightBits(alpha[i]);
-  }
-  formats::writePng(file, bytes, metadata);
+  if (!std::all_of(encoded.pixels.begin(), encoded.pixels.end(), [](Vec3 p) { return isFinite(p); }))
+    throw std::runtime_error("a pixel is not a finite number; no PNG can hold it");
+  formats::writePng(file, bytesOf(encoded, alpha), metadata);
 }
 
 void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata) {

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "base/hash.h"
+#include "base/platform/module.h"
 #include "base/sealed_file.h"
 #include "base/shared_files.h"
 #include "engine/settings.h"
@@ -17,9 +18,9 @@ namespace {
 
 constexpr double kLongestWaitS = 600;
 
-// Of every byte of this program: another build may find other light, or lay it out otherwise in memory.
+// Another build may find other light, or lay it out otherwise in memory.
 const std::string& hashOfProgram() {
-  static const std::string hash = hashOf(contentOf("/proc/self/exe").value_or(version()));
+  static const std::string hash = hashOf(buildId());
   return hash;
 }
 

@@ -203,19 +203,23 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
   options.metresPerUnit = wish.metresPerUnit.value_or(1);
   Result<Imported> imported = importScene(wish.scene, options);
   if (!imported) return Error{imported.error()};
+  return openImported(std::move(imported.value()), wish);
+}
+
+Result<OpenedHome> openImported(Imported imported, const OpenWish& wish) {
   OpenedHome home;
-  home.scene = std::move(imported.value().scene);
-  home.warnings = std::move(imported.value().warnings);
-  home.faults = std::move(imported.value().faults), home.faultCount = imported.value().faultCount;
-  home.photo = imported.value().photo, home.daylight = std::move(imported.value().daylight);
-  home.offLamps = std::move(imported.value().offLamps);
+  home.scene = std::move(imported.scene);
+  home.warnings = std::move(imported.warnings);
+  home.faults = std::move(imported.faults), home.faultCount = imported.faultCount;
+  home.photo = imported.photo, home.daylight = std::move(imported.daylight);
+  home.offLamps = std::move(imported.offLamps);
   nlohmann::json lighting;
   if (!wish.lighting.empty()) {
     Result<nlohmann::json> read = wish.document ? Result<nlohmann::json>(*wish.document) : readJsonFile(wish.lighting);
     if (!read) return Error{read.error()};
     lighting = std::move(read.value());
   }
-  takeUnit(wish, imported.value().unit, lighting, home);
+  takeUnit(wish, imported.unit, lighting, home);
   home.before = lightOf(home.scene);
   if (wish.light == LightWish::None) switchOff(home.scene);
   if (!wish.lighting.empty()) {

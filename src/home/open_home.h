@@ -63,5 +63,7 @@ struct OpenedHome {
 
 // The error is one line.
 Result<OpenedHome> openHome(const OpenWish& wish);
+// The same of a scene that was read already, or made; of `wish` what is about the file is not asked for.
+Result<OpenedHome> openImported(Imported imported, const OpenWish& wish);
 
 }  // namespace roomlight::home

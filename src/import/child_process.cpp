@@ -18,6 +18,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/platform/module.h"
 #include "import/failure.h"
 
 namespace roomlight::importers {
@@ -150,9 +151,10 @@ std::span<const uint8_t> bytesOf(std::string_view text) {
 fs::path modelReader() {
   if (const char* told = std::getenv("ROOMLIGHT_MODEL_READER"); told && *told) return told;
   std::error_code code;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", code).parent_path();
-  const fs::path installed = folder.parent_path() / "libexec/roomlight" / kReader;
-  return fs::exists(folder / kReader, code) || !fs::exists(installed, code) ? folder / kReader : installed;
+  for (const fs::path& folder : {programFolder(), moduleFolder()}) {
+    if (fs::exists(folder / kReader, code)) return folder / kReader;
+  }
+  return installed(fs::path("libexec/roomlight") / kReader);
 }
 
 Bytes inChildProcess(const fs::path& program, const std::vector<std::string>& arguments,

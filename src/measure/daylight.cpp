@@ -52,4 +52,17 @@ void addDaylight(Measurements& m, const LitScene& lit, const MeterSettings& sett
   }
 }
 
+Status measureDaylight(Scene& scene, double groundReflectance, const RenderSettings& render,
+                       const MeterSettings& settings, Measurements& m, Stages& stages) {
+  std::vector<Lamp> lamps = scene.lamps;
+  std::vector<Material> materials = scene.materials;
+  lightByOvercastSky(scene, groundReflectance);
+  const Result<std::unique_ptr<LitScene>> lit = lightScene(scene, render, stages, {.changes = false});
+  if (!lit) return Error{lit.error()};
+  if (lit.value()) addDaylight(m, *lit.value(), settings, stages);
+  scene.lamps = std::move(lamps);
+  scene.materials = std::move(materials);
+  return Ok{};
+}
+
 }  // namespace roomlight

@@ -37,4 +37,8 @@ void lightByOvercastSky(Scene& scene, double groundReflectance);
 // Adds the daylight factor of every grid and point; `lit` is the scene under that sky.
 void addDaylight(Measurements& m, const LitScene& lit, const MeterSettings& settings, Stages& stages);
 
+// Lights the scene by that sky and adds them. Lamps and materials are as before afterwards; suns and sky are not.
+Status measureDaylight(Scene& scene, double groundReflectance, const RenderSettings& render,
+                       const MeterSettings& settings, Measurements& m, Stages& stages);
+
 }  // namespace roomlight

@@ -1,17 +1,13 @@
-#include "mix_home.h"
+#include "still/layered_home.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
-#include "arguments.h"
-#include "base/image_layers.h"
 #include "base/parallel.h"
-#include "mix/layer_info.h"
-#include "picture_options.h"
+#include "still/developed.h"
 
-namespace roomlight::cli {
+namespace roomlight {
 namespace {
 
 // A layer's own dial, and what is laid over it: of either, the part that is said.
@@ -89,7 +85,10 @@ ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Loo
 Result<MixHome> openLayers(const std::string& file) {
   Result<LayeredImage> read = readLayers(file);
   if (!read) return Error{read.error()};
-  LayeredImage& picture = read.value();
+  return layersOf(std::move(read.value()), file);
+}
+
+Result<MixHome> layersOf(LayeredImage picture, const std::string& file) {
   const auto text = picture.metadata.find(kLayersKey);
   if (text == picture.metadata.end())
     return Error{
@@ -172,8 +171,10 @@ ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& dis
   return shown;
 }
 
+bool changesNothing(const Retouch& by) { return by.gains.values.empty() && by.glare <= 0 && by.vignette <= 0; }
+
 void retouch(MixHome& home, const Retouch& by) {
-  if (by.gains.values.empty() && by.glare <= 0 && by.vignette <= 0) return;
+  if (changesNothing(by)) return;
   std::vector<Vec3> alone(home.layers.size());
   for (size_t i = 0; i < home.layers.size(); ++i) {
     alone[i] = Vec3(1);
@@ -191,27 +192,4 @@ Result<Assignment> splitAssignment(const std::string& option, const std::string&
   return Assignment{text.substr(0, equals), text.substr(equals + 1)};
 }
 
-std::string layerTable(const std::vector<LayerInfo>& layers) {
-  size_t widest = 4;
-  for (const LayerInfo& l : layers) widest = std::max(widest, l.name.size());
-  std::string table = fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", "name", widest, "kind", "colour", "flux",
-                                  "linear RGB", "room");
-  for (const LayerInfo& l : layers) {
-    const std::string kelvin = l.kelvin ? fmt::format("{:.0f} K", *l.kelvin) : "-",
-                      flux = l.fluxLm ? fmt::format("{:.0f} lm", *l.fluxLm) : "-";
-    const std::string rgb = fmt::format("{:.3f} {:.3f} {:.3f}", l.colour.x, l.colour.y, l.colour.z);
-    table += fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", l.name, widest, l.kind, kelvin, flux, rgb,
-                         l.room.empty() ? "-" : l.room);
-  }
-  return table;
-}
-
-Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata,
-                  float webpQuality) {
-  const std::string e = lowerExtension(file);
-  if (e == ".webp") return writeWebp(file, image, webpQuality);
-  if (e == ".jpg") return writeJpeg(file, image, std::numeric_limits<size_t>::max());
-  return writePng(file, image, metadata);
-}
-
-}  // namespace roomlight::cli
+}  // namespace roomlight

@@ -1,21 +1,18 @@
-// A layered picture opened for mixing, how bright each layer shall be, and pictures of many states.
+// A layered picture opened for mixing, and how bright each of its layers shall be.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/image_io.h"
-#include "console.h"
+#include "base/image_layers.h"
 #include "engine/sights.h"
+#include "look/display.h"
 #include "mix/layer_info.h"
 #include "mix/mixer.h"
-#include "mix/overlays.h"
-#include "picture_options.h"
 
-namespace roomlight::cli {
+namespace roomlight {
 
 struct MixHome {
   std::vector<LayerInfo> layers;  // in the file's order, as those of the stack
@@ -29,7 +26,10 @@ Image linearMix(const MixHome& home, std::span<const Vec3> gains);
 // channel instead.
 ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Look& look, bool transparent);
 
+// Errors: of the file; layers that are not those it tells of.
 Result<MixHome> openLayers(const std::string& file);
+// The same of a picture in memory; `name` begins the error's line.
+Result<MixHome> layersOf(LayeredImage picture, const std::string& name);
 
 struct DialOptions {
   std::vector<std::string> lamps;  // NAME=DIAL, the later ones go first
@@ -53,6 +53,8 @@ struct FollowMix {
   bool exposure = false, white = false;
 };
 ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display, const FollowMix& follow);
+// Whether there is none of them.
+bool changesNothing(const Retouch& by);
 // Applies local exposure, glare and vignette to every layer in place. Write linear (.exr) mixes before: afterwards the
 // layers no longer hold cd/m².
 void retouch(MixHome& home, const Retouch& by);
@@ -63,33 +65,4 @@ struct Assignment {
 };
 Result<Assignment> splitAssignment(const std::string& option, const std::string& text);
 
-std::string layerTable(const std::vector<LayerInfo>& layers);
-
-// By the extension: .png, .webp or .jpg.
-Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata,
-                  float webpQuality);
-
-// Many pictures from one layered picture: every state of some lamps, or an overlay a lamp with what shows them.
-struct StatesJob {
-  std::filesystem::path folder;
-  std::string extension;  // .png, .webp or .jpg
-};
-// Exit status of the program; errors are told. Ctrl-C ends it between two pictures.
-int writeStates(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata,
-                const StatesJob& job, ProgressDisplay& display);
-
-struct OverlaysJob {
-  std::filesystem::path folder;
-  std::string extension;  // .png or .webp
-  std::optional<BlendMode> blend;  // none: that with the least error
-  std::string cardFile, urlPrefix;  // of Home Assistant; no card where empty
-  bool dimmed = false;
-  std::map<size_t, std::string> entities;  // by layer
-};
-int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata,
-                  const OverlaysJob& job, ProgressDisplay& display);
-
-// The card's second file, "plan.yaml" -> "plan_sensors.yaml".
-std::filesystem::path sensorsFileOf(const std::filesystem::path& cardFile);
-
-}  // namespace roomlight::cli
+}  // namespace roomlight

@@ -1,8 +1,9 @@
-#include "output_files.h"
+#include "still/layers_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/views.h"
@@ -10,8 +11,10 @@
 #include "photometry/colour_temperature.h"
 #include "trace/camera_rays.h"
 
-namespace roomlight::cli {
+namespace roomlight {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 const char* kindOf(LayerKind kind) {
   switch (kind) {
@@ -81,4 +84,4 @@ LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& re
   return out;
 }
 
-}  // namespace roomlight::cli
+}  // namespace roomlight

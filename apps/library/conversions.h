@@ -1,0 +1,95 @@
+// Between what the library shows (roomlight::v1) and what it works with (roomlight).
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "base/result.h"
+#include "engine/render.h"
+#include "home/open_home.h"
+#include "base/parallel.h"
+#include "roomlight/layers.h"
+#include "roomlight/render.h"
+#include "still/layered_home.h"
+
+namespace roomlight::v1 {
+
+// Messages name options as the command line has them; callers know them without dashes.
+std::string withoutDashes(std::string message);
+
+inline Error error(ErrorKind kind, const std::string& message) { return {kind, withoutDashes(message)}; }
+inline Error badInput(const std::string& message) { return error(ErrorKind::BadInput, message); }
+inline Error interrupted() { return {ErrorKind::Interrupted, "interrupted"}; }
+
+inline roomlight::Vec3 toInternal(Vec3 v) { return {v.x, v.y, v.z}; }
+inline Vec3 toPublic(roomlight::Vec3 v) { return {v.x, v.y, v.z}; }
+
+inline RenderProgress toInternal(const Progress& progress) {
+  RenderProgress out;
+  if (progress.report) out.report = [report = progress.report](const std::string& s, float f) { report(s, f); };
+  out.cancelled = progress.cancelled;
+  return out;
+}
+
+// What `work` returns; what it throws as an error.
+template <class Work>
+auto guarded(const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::NoRoom, "memory does not suffice"};
+  } catch (const ResourceError& e) {
+    return Error{ErrorKind::NoRoom, e.what()};
+  } catch (const std::exception& e) {
+    return Error{ErrorKind::Failed, e.what()};
+  }
+}
+
+// The same on so many threads; 0: all.
+template <class Work>
+auto guardedOn(int threads, const Work& work) -> decltype(work()) {
+  return guarded([&] {
+    std::optional<decltype(work())> result;
+    withThreads(threads, [&] { result.emplace(work()); });
+    return std::move(*result);
+  });
+}
+
+struct Home::State {
+  home::OpenedHome opened;
+  std::string file, lighting;  // names, for reports
+};
+
+struct Image::State {
+  const roomlight::Image* image;
+  std::shared_ptr<const void> owner;  // of the image
+};
+Image toPublic(roomlight::Image image);
+Image imageIn(std::shared_ptr<const void> owner, const roomlight::Image& image);
+
+struct Picture::State {
+  Image image;  // that of `rendered`
+  std::shared_ptr<const Rendered> rendered;
+  Camera camera;
+  std::string view;
+  RenderSettings settings;
+  Home home;
+};
+
+Picture pictureOf(Rendered rendered, const Camera& camera, const std::string& view, const RenderSettings& settings,
+                  const Home& home);
+
+struct Layers::State {
+  MixHome home;
+  std::vector<LayerInfo> list;
+};
+Result<Layers> toPublic(roomlight::Result<MixHome> opened);
+
+Result<Display> toInternal(const DisplayOptions& options);
+Result<RenderSettings> toInternal(const Settings& settings);
+
+}  // namespace roomlight::v1
