@@ -3,6 +3,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(TBB REQUIRED)
 find_package(embree 3 REQUIRED)
+set(ROOMLIGHT_EMBREE_LIBRARY embree3)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
