@@ -10,6 +10,7 @@
 #include "scene/scene_change.h"
 #include "scene/validate.h"
 #include "still/cameras.h"
+#include "trace/light_layers.h"
 
 namespace roomlight::v1 {
 namespace {
@@ -105,6 +106,7 @@ Material materialOf(const MaterialValues& v) {
   m.baseColor = toInternal(v.baseColour), m.baseColorTexture.texture = v.baseColourTexture;
   m.alpha = v.alpha, m.alphaMode = v.alpha < 1 ? AlphaMode::Blend : AlphaMode::Opaque;
   m.metallic = v.metallic, m.roughness = v.roughness, m.transmission = v.transmission, m.ior = v.indexOfRefraction;
+  m.specular = v.specular;
   m.emission = toInternal(v.emissionCdM2), m.doubleSided = v.doubleSided;
   return m;
 }
@@ -202,8 +204,12 @@ std::vector<RoomInfo> Home::rooms() const {
 
 std::vector<LampInfo> Home::lamps() const {
   std::vector<LampInfo> out;
-  for (const Luminaire& l : luminairesOf(state_->opened.scene))
-    out.push_back({l.name, toPublic(l.position), l.fluxLm, l.room});
+  const Scene& scene = state_->opened.scene;
+  for (const Luminaire& l : luminairesOf(scene)) {
+    const int room = roomAt(scene, l.position);
+    out.push_back(
+        {l.name, toPublic(l.position), l.fluxLm, room < 0 ? "" : scene.rooms[static_cast<size_t>(room)].name});
+  }
   return out;
 }
 

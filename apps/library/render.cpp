@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <mutex>
 
 #include "cli/picture_options.h"
@@ -12,6 +13,8 @@
 
 namespace roomlight::v1 {
 namespace {
+
+constexpr std::chrono::milliseconds kBetweenLooks{100};  // whether one that waits for its turn has been cancelled
 
 std::string placeOf(const std::optional<Vec3>& place) {
   return place ? fmt::format("{},{},{}", place->x, place->y, place->z) : "";
@@ -36,7 +39,7 @@ struct Renderer::State {
   std::vector<Viewed> viewed;
   std::optional<Scene> part;  // in reach of the cameras; none: all of the home
   std::optional<roomlight::Renderer> renderer;
-  std::mutex one;
+  std::timed_mutex one;
 };
 
 namespace {
@@ -127,7 +130,10 @@ size_t Renderer::viewCount() const { return state_->viewed.size(); }
 Result<Picture> Renderer::picture(size_t view, const Progress& progress) {
   if (view >= state_->viewed.size())
     return badInput(fmt::format("view {}: there are {}, numbered from 0", view, state_->viewed.size()));
-  const std::scoped_lock lock(state_->one);
+  std::unique_lock lock(state_->one, std::defer_lock);
+  while (!lock.try_lock_for(kBetweenLooks)) {
+    if (progress.cancelled && *progress.cancelled) return interrupted();
+  }
   return guardedOn(state_->settings.threads, [&]() -> Result<Picture> {
     const Camera& camera = state_->viewed[view].camera;
     roomlight::Result<Rendered> rendered = state_->renderer->picture(camera, v1::toInternal(progress));

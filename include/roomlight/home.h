@@ -37,6 +37,7 @@ struct MaterialValues {
   float metallic = 0, roughness = 1;
   float transmission = 0;  // of thin glass, 0 to 1
   float indexOfRefraction = 1.5f;
+  float specular = 1;  // of what smooth surfaces mirror, the share that this one does; 0: a Lambertian surface
   Vec3 emissionCdM2;  // luminance in cd/m² per channel
   bool doubleSided = true;  // decides whether both sides shine; every surface blocks light from both
 };
