@@ -17,8 +17,7 @@ struct Mesh {
 Mesh box(std::array<float, 3> lo, std::array<float, 3> hi) {
   Mesh mesh;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    for (unsigned axis = 0; axis < 3; ++axis)
-      mesh.positions.push_back(corner & (1u << axis) ? hi[axis] : lo[axis]);
+    for (unsigned axis = 0; axis < 3; ++axis) mesh.positions.push_back(corner & (1u << axis) ? hi[axis] : lo[axis]);
   }
   mesh.triangles = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                     2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
