@@ -1,8 +1,6 @@
 // What roomlight leaves of Embree's speed: the same rays through bare Embree calls in a loop here and through RayScene,
 // and the rays of the path tracer with all its shading. One thread; each `..Percent` is of the bare rate by processor
 // time, measured in turns so that a busy machine disturbs both alike.
-#include <embree3/rtcore.h>
-
 #include <random>
 
 #include "base/parallel.h"
@@ -10,6 +8,7 @@
 #include "home.h"
 #include "reference/path_tracer.h"
 #include "trace/camera_rays.h"
+#include "trace/embree.h"
 
 namespace roomlight::bench {
 namespace {
@@ -31,7 +30,7 @@ class BareScene {
   BareScene(const BareScene&) = delete;
   BareScene& operator=(const BareScene&) = delete;
 
-  float trace(const Ray& ray, RTCIntersectContext& context) const {
+  float trace(const Ray& ray, RayQuery& query) const {
     RTCRayHit r;
     r.ray = {ray.origin.x,
              ray.origin.y,
@@ -47,7 +46,7 @@ class BareScene {
              0};
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(top_, &context, &r);
+    intersect1(top_, query, &r);
     return r.ray.tfar;
   }
 
@@ -97,10 +96,9 @@ std::vector<Ray> bouncedRays(const RayScene& scene, const std::vector<Ray>& from
 
 double bareSeconds(const BareScene& bare, const std::vector<Ray>& rays) {
   const double start = cpuSeconds();
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RayQuery query;
   float sum = 0;
-  for (const Ray& ray : rays) sum += std::min(bare.trace(ray, context), 1e6f);
+  for (const Ray& ray : rays) sum += std::min(bare.trace(ray, query), 1e6f);
   benchmark::DoNotOptimize(sum);
   return cpuSeconds() - start;
 }

@@ -4,7 +4,10 @@ target_compile_features(roomlight_options INTERFACE cxx_std_20)
 target_include_directories(roomlight_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>)
 target_compile_options(roomlight_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
-  -march=${ROOMLIGHT_ARCH} -fno-math-errno -fno-trapping-math)
+  $<$<BOOL:${ROOMLIGHT_ARCH}>:-march=${ROOMLIGHT_ARCH}> -fno-math-errno -fno-trapping-math)
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(roomlight_options INTERFACE -fsigned-char)  # as on x86-64
+endif()
 if(ROOMLIGHT_WERROR)
   target_compile_options(roomlight_options INTERFACE -Werror)
 endif()

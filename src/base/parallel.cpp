@@ -5,7 +5,7 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include "base/worker_thread.h"
+#include "base/platform/worker_thread.h"
 
 namespace roomlight {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/worker_thread.h"
+#include "base/platform/worker_thread.h"
 
 namespace roomlight {
 namespace {

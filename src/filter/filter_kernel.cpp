@@ -5,6 +5,9 @@
 
 #include "filter/filter.h"
 
+// Structs here hold vectors, which those of a size that is known only when the program runs cannot be in: arm64 uses
+// NEON.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/filter_kernel.cpp"
 #include <hwy/foreach_target.h>

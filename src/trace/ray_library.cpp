@@ -1,6 +1,6 @@
 #include "trace/ray_library.h"
 
-#include <embree3/rtcore.h>
+#include "trace/embree.h"
 
 namespace roomlight {
 

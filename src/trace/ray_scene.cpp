@@ -1,7 +1,5 @@
 #include "trace/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <mutex>
 #include <new>
 #include <string>
@@ -10,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "scene/surface.h"
+#include "trace/embree.h"
 #include "trace/surfaces.h"
 
 namespace roomlight {
@@ -25,15 +24,14 @@ struct GeometryTag {  // what a filter function needs to know of the geometry it
 
 constexpr unsigned kStill = 0, kMoving = 1;  // parts of the top, once anything has moved
 
-struct Query {
-  RTCIntersectContext base;  // first member: Embree hands back a pointer to it
-  const uint8_t* gone;       // per instance; null: none is
-  Vec3* left;                // of shadow rays: one per ray of the packet, indexed by ray id
+struct Query : RayQuery {
+  const uint8_t* gone = nullptr;  // per instance; null: none is
+  Vec3* left = nullptr;           // of shadow rays: one per ray of the packet, indexed by ray id
 };
 
 // Whether the surface of what has moved is met where it is no longer.
 bool isGone(const RTCFilterFunctionNArguments* args, unsigned i) {
-  const uint8_t* gone = reinterpret_cast<const Query*>(args->context)->gone;
+  const uint8_t* gone = queryOf<Query>(args).gone;
   return gone && RTCHitN_instID(args->hit, args->N, i, 0) == kStill && gone[RTCHitN_geomID(args->hit, args->N, i)];
 }
 
@@ -59,7 +57,7 @@ void filterIntersect(const RTCFilterFunctionNArguments* args) {
 // Glass and blended surfaces reduce what is left; the ray goes on until nothing is.
 void filterOccluded(const RTCFilterFunctionNArguments* args) {
   const auto* tag = static_cast<const GeometryTag*>(args->geometryUserPtr);
-  const auto* query = reinterpret_cast<const Query*>(args->context);
+  const auto& query = queryOf<Query>(args);
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] != -1) continue;
@@ -71,7 +69,7 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
     const Vec3 ng{RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)};
     const Vec3 d{RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)};
     const float cosTheta = std::abs(dot(ng, d)) / std::sqrt(lengthSquared(ng) * lengthSquared(d));
-    Vec3& left = query->left[RTCRayN_id(args->ray, n, i)];
+    Vec3& left = query.left[RTCRayN_id(args->ray, n, i)];
     left *= straightTransmittance(*tag->scene, *tag->mesh, p, cosTheta);
     if (!isBlack(left)) args->valid[i] = 0;
   }
@@ -224,16 +222,16 @@ void RayScene::State::build() {
 
 RTCScene RayScene::State::newScene() const {
   RTCScene made = rtcNewScene(device);
-  rtcSetSceneFlags(made, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  rtcSetSceneFlags(made, kFilteredByQueries);
   return made;
 }
 
 // A filter for all surfaces takes some hundredths of the rays' time, a build of the whole without what has moved a
 // second.
 void RayScene::State::begin(Query& query) const {
-  rtcInitIntersectContext(&query.base);
-  query.gone = gone.empty() ? nullptr : gone.data();
-  if (query.gone) query.base.filter = filterGone;
+  if (gone.empty()) return;
+  query.gone = gone.data();
+  query.setFilter(filterGone);
 }
 
 void RayScene::State::commitTop() {
@@ -249,7 +247,7 @@ void RayScene::State::commitTop() {
 void RayScene::State::part() {
   still = top;
   moving = newScene(), top = newScene();
-  rtcSetSceneFlags(moving, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | RTC_SCENE_FLAG_DYNAMIC);
+  rtcSetSceneFlags(moving, kFilteredByQueries | RTC_SCENE_FLAG_DYNAMIC);
   rtcSetSceneBuildQuality(moving, RTC_BUILD_QUALITY_LOW);
   gone.assign(scene->instances.size(), 0);
   movingMesh.assign(scene->instances.size(), -1);
@@ -325,23 +323,23 @@ RTCRay rtcRay(const Ray& ray) {
 }  // namespace
 
 Hit RayScene::intersect(const Ray& ray) const {
-  Query query{};
+  Query query;
   state_->begin(query);
   RTCRayHit r;
   r.ray = rtcRay(ray);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(state_->top, &query.base, &r);
+  intersect1(state_->top, query, &r);
   return state_->hit(r.hit, r.ray.tfar);
 }
 
 Vec3 RayScene::transmittance(const Ray& ray) const {
   Vec3 left(1);
-  Query query{};
+  Query query;
   state_->begin(query);
   query.left = &left;
   RTCRay r = rtcRay(ray);
-  rtcOccluded1(state_->top, &query.base, &r);
+  occluded1(state_->top, query, &r);
   return r.tfar < 0 ? Vec3(0) : left;
 }
 
@@ -357,8 +355,11 @@ void setLane(Ray8& r, unsigned i, const Ray& ray) {
 }
 
 RTCHit laneOf(const RTCHit8& hits, unsigned i) {
-  return {hits.Ng_x[i], hits.Ng_y[i],   hits.Ng_z[i],   hits.u[i],
-          hits.v[i],    hits.primID[i], hits.geomID[i], {hits.instID[0][i]}};
+  RTCHit hit{};
+  hit.Ng_x = hits.Ng_x[i], hit.Ng_y = hits.Ng_y[i], hit.Ng_z = hits.Ng_z[i];
+  hit.u = hits.u[i], hit.v = hits.v[i];
+  hit.primID = hits.primID[i], hit.geomID = hits.geomID[i], hit.instID[0] = hits.instID[0][i];
+  return hit;
 }
 
 }  // namespace
@@ -370,9 +371,9 @@ void RayScene::intersectClose(std::span<const Ray> rays, std::span<Hit> hits) co
 
 void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, bool close) const {
   state_->note(close ? RayLog::Kind::NearestClose : RayLog::Kind::Nearest, rays);
-  Query query{};
+  Query query;
   state_->begin(query);
-  if (close) query.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (close) query.setCoherent();
   for (size_t first = 0; first < rays.size(); first += 8) {
     alignas(32) RTCRayHit8 r;
     alignas(32) int valid[8] = {};
@@ -383,14 +384,14 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
       r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       valid[i] = -1;
     }
-    rtcIntersect8(valid, state_->top, &query.base, &r);
+    intersect8(valid, state_->top, query, &r);
     for (unsigned i = 0; i < n; ++i) hits[first + i] = state_->hit(laneOf(r.hit, i), r.ray.tfar[i]);
   }
 }
 
 void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) const {
   state_->note(RayLog::Kind::Shadow, rays);
-  Query query{};
+  Query query;
   state_->begin(query);
   for (size_t first = 0; first < rays.size(); first += 8) {
     Vec3 lanes[8];
@@ -403,7 +404,7 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) co
       lanes[i] = Vec3(1);
       valid[i] = -1;
     }
-    rtcOccluded8(valid, state_->top, &query.base, &r);
+    occluded8(valid, state_->top, query, &r);
     for (unsigned i = 0; i < n; ++i) left[first + i] = r.tfar[i] < 0 ? Vec3(0) : lanes[i];
   }
 }

@@ -2,14 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <pmmintrin.h>
-
 #include <atomic>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+#ifdef __x86_64__
+#include <pmmintrin.h>
+#endif
+
+#include "base/platform/worker_thread.h"
 
 namespace roomlight {
 namespace {
@@ -56,7 +59,33 @@ TEST(Parallel, threadCapIsSeenInside) {
 }
 
 // Callers may reckon with tiny numbers.
+bool keepsTinyNumbers() {
+  const volatile float tiny = 1e-40f, small = 1e-30f, less = 1e-9f;
+  return tiny * 1e10f > 0 && small * less > 0;
+}
+bool flushesTinyNumbers() {
+  const volatile float tiny = 1e-40f, small = 1e-30f, less = 1e-9f;
+  return tiny * 1e10f == 0 && small * less == 0;
+}
 TEST(Parallel, flushesToZeroInsideAlone) {
+  const auto flushedInside = [] {
+    std::atomic<int> flushing = 0;
+    parallelFor(64, 1, [&](size_t) { flushing += flushesTinyNumbers(); });
+    return flushing.load();
+  };
+  ASSERT_TRUE(keepsTinyNumbers());
+  EXPECT_EQ(flushedInside(), 64);
+  EXPECT_TRUE(keepsTinyNumbers());
+  {
+    const FlushToZero before;
+    EXPECT_EQ(flushedInside(), 64);
+    EXPECT_TRUE(flushesTinyNumbers());
+  }
+  EXPECT_TRUE(keepsTinyNumbers());
+}
+
+#ifdef __x86_64__
+TEST(Parallel, leavesHowResultsAndOperandsAreFlushedAsItWas) {
   const unsigned before = _mm_getcsr();
   for (const unsigned flags : {0u, static_cast<unsigned>(_MM_FLUSH_ZERO_ON)}) {
     _mm_setcsr((before & ~(_MM_FLUSH_ZERO_MASK | _MM_DENORMALS_ZERO_MASK)) | flags);
@@ -70,6 +99,7 @@ TEST(Parallel, flushesToZeroInsideAlone) {
   }
   _mm_setcsr(before);
 }
+#endif
 
 TEST(Parallel, exceptionsReachTheCaller) {
   EXPECT_THROW(parallelFor(100, 1,

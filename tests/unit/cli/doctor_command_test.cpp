@@ -50,7 +50,7 @@ TEST(DoctorCommand, saysWhatIsThereAndWhatIsMissingForWhat) {
   EXPECT_FALSE(findingOf(json, "model reader")["place"].is_null());
   EXPECT_GE(json["cores"].get<int>(), 1);
   EXPECT_GT(json["memoryGiB"].get<double>(), json["availableGiB"].get<double>() * 0.5);
-  EXPECT_EQ(json["embree"].get<std::string>().substr(0, 2), "3.");
+  EXPECT_NE(std::string("3. 4.").find(json["embree"].get<std::string>().substr(0, 2)), std::string::npos);
   EXPECT_FALSE(json["builtFor"].get<std::string>().empty());
   EXPECT_FALSE(json.contains("selfTest"));
 }
