@@ -126,7 +126,7 @@ def byte_code(package, root):
 
 def debian_package(package, root, stage, release):
     debian_documents(package, root, release)
-    files = sorted(f for f in root.rglob("*") if f.is_file())
+    files = sorted(f for f in root.rglob("*") if f.is_file() and not f.is_symlink())
     sums = "".join(f"{hashlib.md5(f.read_bytes()).hexdigest()}  {f.relative_to(root)}\n" for f in files)
     text = control(package, root, stage, release)
     (root / "DEBIAN").mkdir()

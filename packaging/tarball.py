@@ -5,7 +5,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from common import OUT, PACKAGING, end, output, programs_below, run, triplet
+from common import OUT, PACKAGING, ROOT, end, output, programs_below, run, triplet
 
 # Libraries of the C library: of the system everywhere, and never taken along.
 OF_THE_SYSTEM = re.compile(r"^(ld-linux|linux-vdso|libc|libm|libdl|librt|libpthread|libresolv|libutil|libmvec)[-.]")
@@ -48,11 +48,22 @@ def take_libraries(folder):
         run("patchelf", "--set-rpath", f"$ORIGIN/{os.path.relpath(place, file.parent)}", file)
 
 
-def tarball(stage, release):
+def wheel(folder, release):
+    """Of the tarball's folder: the Python module with all that it needs."""
+    module = folder / "lib/python3/dist-packages/roomlight"
+    said = output("/usr/bin/python3", ROOT / "python/make_wheel.py", folder, module, OUT,
+                  env={**os.environ, "SOURCE_DATE_EPOCH": str(release.epoch)})
+    return OUT / Path(said.splitlines()[-1].split(": ")[1]).name
+
+
+def tarball_and_wheel(stage, release):
     """Of what is installed below stage/NAME, where NAME is that of the tarball."""
     name = release.tarball
+    for development in ("include", *(f"lib/{triplet()}/{what}" for what in ("cmake", "pkgconfig", "libroomlight.a", "libroomlight.so"))):
+        file = stage / name / development
+        shutil.rmtree(file) if file.is_dir() else file.unlink(missing_ok=True)
     take_libraries(stage / name)
     file = OUT / f"{name}.tar.gz"  # a bare system has no xz
     run("tar", "--sort=name", f"--mtime=@{release.epoch}", "--owner=0", "--group=0", "--numeric-owner",
         "-C", stage, "-c", "-I", "gzip -9n", "-f", file, name)
-    return file
+    return [file, wheel(stage / name, release)]

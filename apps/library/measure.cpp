@@ -110,6 +110,7 @@ struct Meters::State {
   Home home;
   Plan plan;
   std::unique_ptr<LitScene> lit;
+  mutable std::mutex one;  // reads at a time
 };
 
 Result<Meters> Meters::of(const Home& home, const MeterOptions& options, const Progress& progress) {
@@ -123,12 +124,13 @@ Result<Meters> Meters::of(const Home& home, const MeterOptions& options, const P
         lightScene(home.state().opened.scene, plan->render, stages, {.changes = false});
     if (!lit) return badInput(lit.error());
     if (!lit.value()) return interrupted();
-    return Meters(std::shared_ptr<const State>(new State{home, *plan, std::move(lit).value()}));
+    return Meters(std::shared_ptr<const State>(new State{home, *plan, std::move(lit).value(), {}}));
   });
 }
 
 Result<std::vector<Reading>> Meters::illuminance(std::span<const float> positions, std::span<const float> normals,
                                                  const Progress& progress) const {
+  const std::scoped_lock lock(state_->one);
   return guardedOn(state_->plan.render.threads, [&]() -> Result<std::vector<Reading>> {
     const Result<std::vector<SurfaceElement>> elements = elementsOf(positions, normals);
     if (!elements) return elements.error();

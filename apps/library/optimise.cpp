@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "base/write_file.h"
+#include "cli/output_files.h"
 #include "cli/started_programs.h"
 #include "conversions.h"
 #include "engine/stages.h"
@@ -25,12 +28,12 @@ Result<optimise::RunWish> wishOf(const std::string& home, const std::string& stu
   return wish;
 }
 
-std::vector<Design> designsOf(const optimise::Report& report) {
+std::vector<Design> designsOf(const optimise::Report& report, const std::filesystem::path& folder) {
   std::vector<Design> designs;
   for (const optimise::Proposed& d : report.designs) {
     Design design;
     design.name = d.name, design.fittings = d.result.fittings, design.installedW = d.result.installedW;
-    design.lightingFiles = d.lightingFiles;
+    for (const std::string& name : d.lightingFiles) design.lightingFiles.push_back((folder / name).string());
     for (const optimise::Objective o : report.model.objectives)
       design.objectives[optimise::infoOf(o).name] = d.result.of(o);
     if (d.certificate) design.largestDifferencePercent = d.certificate->worst().maxPercent;
@@ -50,7 +53,9 @@ Status work(optimise::Run& run, Stages& stages) {
   if (const Status s = step(run.searchAll()); !s) return s;
   if (const Status s = step(run.propose()); !s) return s;
   if (const Status s = step(run.certifyAll(stages)); !s) return s;
-  return step(run.write(cli::reportPlots()));
+  const roomlight::Result<std::string> plots =
+      cli::readTextFile(cli::pageFolder("reports", "dist-reports") / "index.html");
+  return step(run.write(plots ? plots.value() : std::string()));
 }
 
 }  // namespace
@@ -73,7 +78,7 @@ Result<std::vector<Design>> optimise(const std::string& home, const std::string&
     };
     optimise::Run run(*wish, {[](const std::string&) {}, [](const std::string&) {}, searching});
     if (const Status s = work(run, stages); !s) return s.error();
-    return designsOf(run.report());
+    return designsOf(run.report(), folder);
   });
 }
 
