@@ -345,13 +345,23 @@ Vec3 RayScene::transmittance(const Ray& ray) const {
 
 namespace {
 
-// Fills lane i of an eight-wide ray; lanes past the end stay invalid.
+// Fills lane i of an eight-wide ray.
 template <class Ray8>
 void setLane(Ray8& r, unsigned i, const Ray& ray) {
   r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
   r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
   r.tnear[i] = ray.tMin, r.tfar[i] = ray.tMax;
   r.time[i] = 0, r.mask[i] = 0xffffffffu, r.id[i] = i, r.flags[i] = 0;
+}
+
+// Fills the lanes from the n-th on, which are not valid: on processors without AVX Embree goes by tnear > tfar instead,
+// and looks at what else the lanes hold.
+template <class Ray8>
+void closeLanes(Ray8& r, unsigned n, const Ray& like) {
+  for (unsigned i = n; i < 8; ++i) {
+    setLane(r, i, like);
+    r.tnear[i] = 1, r.tfar[i] = 0;
+  }
 }
 
 RTCHit laneOf(const RTCHit8& hits, unsigned i) {
@@ -384,6 +394,7 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
       r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       valid[i] = -1;
     }
+    closeLanes(r.ray, n, rays[first]);
     intersect8(valid, state_->top, query, &r);
     for (unsigned i = 0; i < n; ++i) hits[first + i] = state_->hit(laneOf(r.hit, i), r.ray.tfar[i]);
   }
@@ -404,6 +415,7 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) co
       lanes[i] = Vec3(1);
       valid[i] = -1;
     }
+    closeLanes(r, n, rays[first]);
     occluded8(valid, state_->top, query, &r);
     for (unsigned i = 0; i < n; ++i) left[first + i] = r.tfar[i] < 0 ? Vec3(0) : lanes[i];
   }
