@@ -44,6 +44,9 @@ V set(float v) { return hn::Set(D(), v); }
 
 struct V3 {
   V x, y, z;
+
+  V3() {}  // written out: one that GCC makes by itself lacks the instruction set of this namespace
+  V3(V first, V second, V third) : x(first), y(second), z(third) {}
 };
 V3 load3(const float* p, ptrdiff_t pitch) { return {load(p), load(p + pitch), load(p + 2 * pitch)}; }
 V dot(const V3& a, const V3& b) { return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z))); }
