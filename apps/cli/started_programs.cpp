@@ -58,7 +58,7 @@ BrowserPage::~BrowserPage() {
 std::filesystem::path pageFolder(const std::string& name, const std::string& built) {
   std::error_code code;
   const std::filesystem::path places[] = {installed(std::filesystem::path("share/roomlight") / name),
-                                          programFolder() / "../../viewer" / built};
+                                          moduleFolder() / "../../viewer" / built};
   for (const auto& place : places) {
     if (std::filesystem::exists(place / "index.html", code)) return std::filesystem::weakly_canonical(place, code);
   }

@@ -1,8 +1,10 @@
 // Between what the library shows (roomlight::v1) and what it works with (roomlight).
 #pragma once
 
+#include <chrono>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <string>
 #include <vector>
@@ -57,6 +59,16 @@ auto guardedOn(int threads, const Work& work) -> decltype(work()) {
     withThreads(threads, [&] { result.emplace(work()); });
     return std::move(*result);
   });
+}
+
+// Waits for others to be done with what is used by one at a time; owns nothing where that was cancelled.
+inline std::unique_lock<std::timed_mutex> turnAt(std::timed_mutex& one, const Progress& progress) {
+  constexpr std::chrono::milliseconds kBetweenLooks{50};
+  std::unique_lock lock(one, std::defer_lock);
+  while (!lock.try_lock_for(kBetweenLooks)) {
+    if (progress.cancelled && *progress.cancelled) break;
+  }
+  return lock;
 }
 
 struct Home::State {

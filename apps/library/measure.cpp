@@ -110,7 +110,7 @@ struct Meters::State {
   Home home;
   Plan plan;
   std::unique_ptr<LitScene> lit;
-  mutable std::mutex one;  // reads at a time
+  mutable std::timed_mutex one;  // reads at a time
 };
 
 Result<Meters> Meters::of(const Home& home, const MeterOptions& options, const Progress& progress) {
@@ -130,7 +130,8 @@ Result<Meters> Meters::of(const Home& home, const MeterOptions& options, const P
 
 Result<std::vector<Reading>> Meters::illuminance(std::span<const float> positions, std::span<const float> normals,
                                                  const Progress& progress) const {
-  const std::scoped_lock lock(state_->one);
+  const auto turn = turnAt(state_->one, progress);
+  if (!turn) return interrupted();
   return guardedOn(state_->plan.render.threads, [&]() -> Result<std::vector<Reading>> {
     const Result<std::vector<SurfaceElement>> elements = elementsOf(positions, normals);
     if (!elements) return elements.error();

@@ -14,8 +14,6 @@
 namespace roomlight::v1 {
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{100};  // whether one that waits for its turn has been cancelled
-
 std::string placeOf(const std::optional<Vec3>& place) {
   return place ? fmt::format("{},{},{}", place->x, place->y, place->z) : "";
 }
@@ -130,10 +128,8 @@ size_t Renderer::viewCount() const { return state_->viewed.size(); }
 Result<Picture> Renderer::picture(size_t view, const Progress& progress) {
   if (view >= state_->viewed.size())
     return badInput(fmt::format("view {}: there are {}, numbered from 0", view, state_->viewed.size()));
-  std::unique_lock lock(state_->one, std::defer_lock);
-  while (!lock.try_lock_for(kBetweenLooks)) {
-    if (progress.cancelled && *progress.cancelled) return interrupted();
-  }
+  const auto turn = turnAt(state_->one, progress);
+  if (!turn) return interrupted();
   return guardedOn(state_->settings.threads, [&]() -> Result<Picture> {
     const Camera& camera = state_->viewed[view].camera;
     roomlight::Result<Rendered> rendered = state_->renderer->picture(camera, v1::toInternal(progress));

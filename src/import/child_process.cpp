@@ -151,7 +151,7 @@ std::span<const uint8_t> bytesOf(std::string_view text) {
 fs::path modelReader() {
   if (const char* told = std::getenv("ROOMLIGHT_MODEL_READER"); told && *told) return told;
   std::error_code code;
-  for (const fs::path& folder : {programFolder(), moduleFolder()}) {
+  for (const fs::path& folder : {moduleFolder(), programFolder()}) {
     if (fs::exists(folder / kReader, code)) return folder / kReader;
   }
   return installed(fs::path("libexec/roomlight") / kReader);

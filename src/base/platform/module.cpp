@@ -86,14 +86,12 @@ std::filesystem::path moduleFolder() {
 
 std::filesystem::path installed(const std::filesystem::path& below) {
   std::error_code code;
-  const std::filesystem::path ofProgram = programFolder().parent_path() / below;
-  if (std::filesystem::exists(ofProgram, code)) return ofProgram;
   std::filesystem::path folder = moduleFolder();
   for (int up = 0; up < kLevelsToPrefix && folder.has_relative_path(); ++up) {
     folder = folder.parent_path();
     if (std::filesystem::exists(folder / below, code)) return folder / below;
   }
-  return ofProgram;
+  return programFolder().parent_path() / below;
 }
 
 }  // namespace roomlight

@@ -16,8 +16,9 @@ std::filesystem::path moduleFolder();
 // Of the program that runs, whatever it is.
 std::filesystem::path programFolder();
 
-// `below` in the prefix of the program, as in PREFIX/bin, or else of the library, which may lie as deep as in
-// PREFIX/lib/x86_64-linux-gnu/glibc-hwcaps/x86-64-v3. Where neither has it, in the program's.
+// `below` in the prefix of the library, which may lie as deep as in
+// PREFIX/lib/x86_64-linux-gnu/glibc-hwcaps/x86-64-v3, or else of the program, as in PREFIX/bin. Where neither has it,
+// in the program's.
 std::filesystem::path installed(const std::filesystem::path& below);
 
 }  // namespace roomlight
