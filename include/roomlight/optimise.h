@@ -24,7 +24,7 @@ struct Design {
   std::map<std::string, double> objectives;  // by name: "targetMiss", ...
   size_t fittings = 0;
   double installedW = 0;
-  std::vector<std::string> lightingFiles;  // one a condition
+  std::vector<std::string> lightingFiles;  // in the folder; one a condition
   std::optional<double> largestDifferencePercent;  // from the full solution; none: not certified
 };
 
