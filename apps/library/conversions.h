@@ -1,7 +1,11 @@
 // Between what the library shows (roomlight::v1) and what it works with (roomlight).
 #pragma once
 
+#include <cxxabi.h>
+
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -27,6 +31,12 @@ inline Error error(ErrorKind kind, const std::string& message) { return {kind, w
 inline Error badInput(const std::string& message) { return error(ErrorKind::BadInput, message); }
 inline Error interrupted() { return {ErrorKind::Interrupted, "interrupted"}; }
 
+// Whether something may be there: what is farther rays cannot reach with any precision.
+inline bool isPlace(roomlight::Vec3 v) {
+  constexpr float kFarthestM = 1e6f;
+  return isFinite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kFarthestM;
+}
+
 inline roomlight::Vec3 toInternal(Vec3 v) { return {v.x, v.y, v.z}; }
 inline Vec3 toPublic(roomlight::Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -48,12 +58,19 @@ auto guarded(const Work& work) -> decltype(work()) {
     return Error{ErrorKind::NoRoom, e.what()};
   } catch (const std::exception& e) {
     return Error{ErrorKind::Failed, e.what()};
+  } catch (const abi::__forced_unwind&) {
+    throw;  // a thread that is ended
+  } catch (...) {
+    return Error{ErrorKind::Failed, "an exception of a progress function"};
   }
 }
 
+constexpr int kMostThreads = 1024;
 // The same on so many threads; 0: all.
 template <class Work>
 auto guardedOn(int threads, const Work& work) -> decltype(work()) {
+  if (threads < 0 || threads > kMostThreads)
+    return badInput("threads: must be from 0 to " + std::to_string(kMostThreads));
   return guarded([&] {
     std::optional<decltype(work())> result;
     withThreads(threads, [&] { result.emplace(work()); });

@@ -15,7 +15,8 @@
 namespace roomlight::v1 {
 namespace {
 
-constexpr float kAlbedo = 0.8f;
+constexpr float kAlbedo = 0.8f, kMostCdM2 = 1e9f;
+constexpr float kLargestM = 10'000;
 constexpr const char* kArrays = "arrays";
 
 struct Lighting {
@@ -52,6 +53,9 @@ Result<home::OpenWish> wishOf(const OpenOptions& o) {
 
 Result<Home> homeOf(roomlight::Result<home::OpenedHome> opened, std::string file, std::string lighting) {
   if (!opened) return badInput(opened.error());
+  for (auto* lines : {&opened.value().notes, &opened.value().warnings}) {
+    for (std::string& line : *lines) line = withoutDashes(line);
+  }
   auto state = std::make_shared<Home::State>();
   *state = {std::move(opened.value()), std::move(file), std::move(lighting)};
   return Home(std::shared_ptr<const Home::State>(std::move(state)));
@@ -100,6 +104,25 @@ Status addMesh(const MeshArrays& arrays, size_t index, size_t materials, Scene& 
   return Done{};
 }
 
+Status checkMaterial(const MaterialValues& v, size_t index) {
+  const auto isShare = [](float x) { return x >= 0 && x <= 1; };
+  const auto within = [](Vec3 c, float most) {
+    return c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x <= most && c.y <= most && c.z <= most;
+  };
+  const char* wrong = !within(v.baseColour, 1)   ? "baseColour: must be from 0 to 1"
+                      : !isShare(v.alpha)        ? "alpha: must be from 0 to 1"
+                      : !isShare(v.metallic)     ? "metallic: must be from 0 to 1"
+                      : !isShare(v.roughness)    ? "roughness: must be from 0 to 1"
+                      : !isShare(v.transmission) ? "transmission: must be from 0 to 1"
+                      : !isShare(v.specular)     ? "specular: must be from 0 to 1"
+                      : !(v.indexOfRefraction >= 1 && v.indexOfRefraction <= 10)
+                          ? "indexOfRefraction: must be from 1 to 10"
+                      : !within(v.emissionCdM2, kMostCdM2) ? "emissionCdM2: must be from 0 to 1e9"
+                      : v.baseColourTexture < -1           ? "baseColourTexture: there is no such texture"
+                                                           : nullptr;
+  return wrong ? Status(badInput(fmt::format("material {}: {}", index, wrong))) : Done{};
+}
+
 Material materialOf(const MaterialValues& v) {
   Material m;
   m.name = v.name;
@@ -113,6 +136,8 @@ Material materialOf(const MaterialValues& v) {
 
 Result<Camera> cameraOf(const CameraValues& v) {
   const roomlight::Vec3 eye = toInternal(v.eye), forward = toInternal(v.target) - eye;
+  if (!isPlace(eye) || !isPlace(toInternal(v.target)))
+    return badInput(fmt::format("camera '{}': eye and target must be within 1000 km", v.name));
   if (!(length(forward) > 1e-6f)) return badInput(fmt::format("camera '{}': target is where its eye is", v.name));
   if (!(v.verticalFovDeg >= 1 && v.verticalFovDeg <= 170))
     return badInput(fmt::format("camera '{}': verticalFovDeg must be from 1 to 170", v.name));
@@ -131,7 +156,10 @@ Result<Scene> sceneOf(const HomeArrays& arrays) {
     texture.rgba.assign(t.rgba.begin(), t.rgba.end());
     scene.textures.push_back(std::move(texture));
   }
-  for (const MaterialValues& m : arrays.materials) scene.materials.push_back(materialOf(m));
+  for (const MaterialValues& m : arrays.materials) {
+    if (const Status s = checkMaterial(m, scene.materials.size()); !s) return s.error();
+    scene.materials.push_back(materialOf(m));
+  }
   if (arrays.materials.empty()) {
     MaterialValues grey;
     grey.baseColour = {kAlbedo, kAlbedo, kAlbedo};
@@ -171,6 +199,8 @@ Result<Home> Home::fromArrays(const HomeArrays& arrays, const OpenOptions& optio
     if (!scene) return scene.error();
     if (const auto s = validate(*scene); !s) return badInput(s.error());
     if (wish->metresPerUnit) scaleScene(*scene, *wish->metresPerUnit);
+    if (const float size = maxComponent(scene->bounds().size()); !(size <= kLargestM))
+      return badInput(fmt::format("the scene is {:g} m large, which no home is; is metresPerUnit right?", size));
     Imported imported;
     imported.scene = std::move(*scene);
     imported.unit = StatedUnit::Certain;

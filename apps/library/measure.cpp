@@ -40,8 +40,8 @@ Result<std::vector<SurfaceElement>> elementsOf(std::span<const float> positions,
   for (size_t i = 0; i < elements.size(); ++i) {
     const roomlight::Vec3 position(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
     const roomlight::Vec3 normal(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
-    if (!isFinite(position) || !isFinite(normal) || !(length(normal) > 1e-6f))
-      return badInput(fmt::format("meter {}: its position must be finite and its normal not zero", i));
+    if (!isPlace(position) || !isPlace(normal) || !(length(normal) > 1e-6f))
+      return badInput(fmt::format("meter {}: its position must be within 1000 km and its normal not zero", i));
     elements[i].position = position, elements[i].normal = normalize(normal);
   }
   return elements;

@@ -28,9 +28,8 @@ LayeredImage layeredImageOf(const Picture::State& s, Metadata metadata) {
   return layeredImage(s.home.state().opened.scene, s.camera, copy, std::move(metadata));
 }
 
-Status done(const roomlight::Status& status, ErrorKind kind = ErrorKind::Failed) {
-  return status ? Status(Done{}) : error(kind, status.error());
-}
+// Of writing, which fails by a folder that is not there, a full disk, a size that a format does not take.
+Status done(const roomlight::Status& status) { return status ? Status(Done{}) : badInput(status.error()); }
 
 Metadata metadataOf(const Picture::State& s, const Development& how) {
   return roomlight::metadataOf({s.settings, s.home.state().file, s.home.state().lighting, s.view, false}, s.camera,

@@ -82,7 +82,8 @@ Result<RenderSettings> toInternal(const Settings& settings) {
     s = read.value();
   }
   if (!settings.technique.empty()) s.technique = settings.technique;
-  if (settings.width != 0 || settings.height != 0) s.width = settings.width, s.height = settings.height;
+  if (settings.width != 0) s.width = settings.width;
+  if (settings.height != 0) s.height = settings.height;
   if (settings.samples != 0) s.samples = settings.samples;
   if (settings.seed != 0) s.seed = settings.seed;
   if (settings.threads != 0) s.threads = settings.threads;

@@ -44,7 +44,7 @@ enum class ErrorKind {
 
 struct Error {
   ErrorKind kind = ErrorKind::BadInput;
-  std::string message;  // one line
+  std::string message = {};  // one line
 };
 
 // A value or an error. `value()` must not be asked for where there is none.
@@ -75,7 +75,7 @@ using Status = Result<Done>;
 struct Progress {
   // The stage's name and the fraction of it that is done, 0 to 1. Called by one thread at a time, not always the
   // caller's.
-  std::function<void(std::string_view stage, float fraction)> report;
+  std::function<void(std::string_view stage, float fraction)> report = {};
   const std::atomic<bool>* cancelled = nullptr;  // may become true at any time
 };
 

@@ -7,19 +7,19 @@
 namespace ROOMLIGHT_NAMESPACE {
 
 struct LayerInfo {
-  std::string name, kind;  // kind: lamp, group, mesh, sun or sky
+  std::string name = {}, kind = {};  // kind: lamp, group, mesh, sun or sky
   Vec3 colour{1, 1, 1};  // linear Rec.709 of its light; luminance 1
-  std::optional<double> kelvin, fluxLm;
-  std::string room;  // empty: of none
+  std::optional<double> kelvin = {}, fluxLm = {};
+  std::string room = {};  // empty: of none
 };
 
 // How bright layers shall be. Later ones go first.
 struct Dials {
   // A lamp's name, where * and ? stand for any text and letter, and "60%", "off", "2700K", "#ffd080", or several of
   // them with commas between.
-  std::vector<std::pair<std::string, std::string>> lamps;
-  std::optional<double> kelvin;  // of all lamps whose colour is not said
-  std::string sun, sky;  // like those of lamps; empty: as rendered
+  std::vector<std::pair<std::string, std::string>> lamps = {};
+  std::optional<double> kelvin = {};  // of all lamps whose colour is not said
+  std::string sun = {}, sky = {};  // like those of lamps; empty: as rendered
 };
 
 class ROOMLIGHT_API Layers {

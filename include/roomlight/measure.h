@@ -11,7 +11,7 @@ struct MeterOptions {
   uint64_t seed = 0;
   int threads = 0;  // 0: all cores
   // Of measure() alone:
-  std::string meters;  // a meter file (docs/reference/meters.md); empty: every room
+  std::string meters = {};  // a meter file (docs/reference/meters.md); empty: every room
   bool daylightFactor = false;  // a second time, under a CIE overcast sky alone
 };
 

@@ -28,16 +28,16 @@ class ROOMLIGHT_API Image {
 // sRGB as displays and files have it, row by row from the top.
 struct DisplayImage {
   int width = 0, height = 0, channels = 3;  // 4: with opacity
-  std::vector<uint8_t> samples;  // channels * width * height
+  std::vector<uint8_t> samples = {};  // channels * width * height
 };
 
 // How light is shown (docs/reference/conventions.md, exposure and display).
 struct DisplayOptions {
   std::string look = "natural";  // natural, bright, evening or technical; what is empty below is the look's
   std::string exposure = "auto";  // auto, home, or EV100 as on a light meter
-  std::string whiteBalance;  // auto, none, a warmth such as "20%", or a temperature such as "3000K"
-  std::string tone;  // tone curve
-  std::optional<float> contrast, saturation, localExposure, glare, vignette;
+  std::string whiteBalance = {};  // auto, none, a warmth such as "20%", or a temperature such as "3000K"
+  std::string tone = {};  // tone curve
+  std::optional<float> contrast = {}, saturation = {}, localExposure = {}, glare = {}, vignette = {};
 };
 
 class Layers;

@@ -144,6 +144,9 @@ class Layers(Sequence[Floats]):
             raise IndexError(f"layer {index}: there are {count}, numbered from 0")
         return self._layers.image(index % count)
 
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
     def gains(
         self,
         lamps: Optional[Mapping[str, Dial]] = None,
@@ -420,7 +423,7 @@ def _settings(
         raise InputError(f"layers: must be True, False or 'room', and is '{layers}'")
     return filled(
         _roomlight.Settings(),
-        settings=None if settings is None else json.dumps(settings),
+        settings=None if settings is None else json.dumps(settings, default=lambda v: v.item()),
         layers=bool(layers),
         layers_by_room=layers == "room",
         **values,

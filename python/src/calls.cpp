@@ -1,5 +1,7 @@
 #include "calls.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -9,6 +11,7 @@
 #include <thread>
 
 namespace roomlight::python {
+
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenSignals{100};
@@ -22,6 +25,8 @@ const char* nameOf(ErrorKind kind) {
   }
   return "failed";
 }
+
+}  // namespace
 
 // Long work that one thread does and another waits for.
 class Call {
@@ -56,7 +61,8 @@ void Call::report(std::string_view stage, float fraction) {
   if (cancelled_) return;
   const py::gil_scoped_acquire acquire;
   try {
-    if (report_(py::str(stage.data(), stage.size()), fraction).is(py::bool_(false))) cancelled_ = true;
+    const py::object answer = report_(py::str(stage.data(), stage.size()), fraction);
+    if (!answer.is_none() && !answer.cast<bool>()) cancelled_ = true;
   } catch (...) {
     fail(std::current_exception());
   }
@@ -81,37 +87,22 @@ bool Call::waitFor(std::chrono::milliseconds time) {
   return ended_.wait_for(lock, time, [this] { return isOver_; });
 }
 
-// Calls that are under way, to be ended before the interpreter is.
+namespace {
+
+// What is under way, to be ended before the interpreter is.
 struct Running {
   std::mutex mutex;
   std::condition_variable fewer;
-  std::set<Call*> calls;
+  std::set<Call*> calls;  // of those that can be cancelled
+  int count = 0;
   bool isClosed = false;
+  pid_t process = getpid();  // a forked one has none of the threads
 };
 
 Running& running() {
   static auto* all = new Running;  // outlives threads that still wait when the process ends
   return *all;
 }
-
-class Entered {
- public:
-  explicit Entered(Call& call) : call_(call) {
-    const std::scoped_lock lock(running().mutex);
-    if (running().isClosed) call_.cancel();
-    running().calls.insert(&call_);
-  }
-  ~Entered() {
-    const std::scoped_lock lock(running().mutex);
-    running().calls.erase(&call_);
-    running().fewer.notify_all();
-  }
-  Entered(const Entered&) = delete;
-  Entered& operator=(const Entered&) = delete;
-
- private:
-  Call& call_;
-};
 
 void waitWithSignals(Call& call) {
   const py::gil_scoped_release release;
@@ -121,11 +112,32 @@ void waitWithSignals(Call& call) {
   }
 }
 
+// Text that may be a file's name in any encoding.
+py::str textOf(const std::string& bytes) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "backslashreplace"));
+}
+
 }  // namespace
+
+Entered::Entered(Call* call) : call_(call) {
+  const std::scoped_lock lock(running().mutex);
+  ++running().count;
+  if (!call_) return;
+  if (running().isClosed) call_->cancel();
+  running().calls.insert(call_);
+}
+
+Entered::~Entered() {
+  const std::scoped_lock lock(running().mutex);
+  --running().count;
+  running().calls.erase(call_);
+  running().fewer.notify_all();
+}
 
 void raise(const Error& error) {
   const py::object exception =
-      py::module_::import("roomlight._errors").attr("exception_of")(nameOf(error.kind), error.message);
+      py::module_::import("roomlight._errors").attr("exception_of")(nameOf(error.kind), textOf(error.message));
   PyErr_SetObject(py::type::of(exception).ptr(), exception.ptr());
   throw py::error_already_set();
 }
@@ -133,7 +145,7 @@ void raise(const Error& error) {
 void runLong(const py::object& report, const std::function<void(const Progress&)>& work) {
   Call call(report);
   {
-    const Entered entered(call);
+    const Entered entered(&call);
     std::thread worker([&] { call.work(work); });
     waitWithSignals(call);
     worker.join();
@@ -143,11 +155,12 @@ void runLong(const py::object& report, const std::function<void(const Progress&)
 }
 
 void endLongWork() {
+  if (getpid() != running().process) return;
   const py::gil_scoped_release release;
   std::unique_lock lock(running().mutex);
   running().isClosed = true;
   for (Call* call : running().calls) call->cancel();
-  running().fewer.wait(lock, [] { return running().calls.empty(); });
+  running().fewer.wait(lock, [] { return running().count == 0; });
 }
 
 }  // namespace roomlight::python

@@ -26,10 +26,25 @@ inline void check(const Status& status) {
   if (!status) raise(status.error());
 }
 
+class Call;
+
+// While it lives the interpreter does not end (endLongWork). Made and destroyed with the interpreter's lock.
+class Entered {
+ public:
+  explicit Entered(Call* call = nullptr);  // which is cancelled then
+  ~Entered();
+  Entered(const Entered&) = delete;
+  Entered& operator=(const Entered&) = delete;
+
+ private:
+  Call* call_;
+};
+
 // Runs `work` on the calling thread, without the interpreter's lock. For what takes up to some seconds and cannot be
 // cancelled.
 template <class Work>
 auto unlocked(const Work& work) {
+  const Entered entered;
   const py::gil_scoped_release release;
   return work();
 }
@@ -47,7 +62,8 @@ auto valueOfLong(const py::object& report, const Work& work) {
   return taken(*std::move(result));
 }
 
-// Cancels all long work and waits until it has ended; for the end of the interpreter, after which none may call Python.
+// Cancels all long work and waits until it and what is unlocked has ended; for the end of the interpreter, after which
+// none may call Python.
 void endLongWork();
 
 }  // namespace roomlight::python

@@ -110,6 +110,21 @@ TEST(LibraryHome, BadArraysAreNamed) {
   EXPECT_NE(errorOf(broken.arrays()), "no error");
 }
 
+TEST(LibraryHome, WhatNoHomeIsIsRefused) {
+  const BoxRoom room = smallRoom();
+  HomeArrays arrays = room.arrays();
+  arrays.cameras[0].eye.x = 1e30f;
+  EXPECT_EQ(errorOf(arrays), "camera 'corner': eye and target must be within 1000 km");
+  EXPECT_EQ(errorOf(BoxRoom({0, 0, 0}, {1e6f, 2.5f, 3}).arrays()),
+            "the scene is 1e+06 m large, which no home is; is metresPerUnit right?");
+  arrays = room.arrays();
+  arrays.materials[0].specular = -3;
+  EXPECT_EQ(errorOf(arrays), "material 0: specular: must be from 0 to 1");
+  arrays = room.arrays();
+  arrays.materials[0].emissionCdM2.y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(errorOf(arrays), "material 0: emissionCdM2: must be from 0 to 1e9");
+}
+
 TEST(LibraryHome, BadOptionsAreNamedWithoutDashes) {
   const BoxRoom room = smallRoom();
   OpenOptions options;

@@ -80,6 +80,14 @@ TEST(LibraryPicture, IsCancelled) {
   EXPECT_FALSE(part->complete());
 }
 
+TEST(LibraryPicture, WhatProgressThrowsIsAnError) {
+  Progress progress;
+  progress.report = [](std::string_view, float) { throw 5; };
+  const auto picture = render(room(), {}, quick(), progress);
+  ASSERT_FALSE(picture);
+  EXPECT_EQ(picture.error().kind, ErrorKind::Failed);
+}
+
 TEST(LibraryPicture, BadSettingsAreNamed) {
   const auto errorOf = [](const Settings& settings, const View& view = {}) {
     const auto picture = render(room(), view, settings);
@@ -94,6 +102,9 @@ TEST(LibraryPicture, BadSettingsAreNamed) {
   settings = quick();
   settings.width = -4;
   EXPECT_NE(errorOf(settings).find("width"), std::string::npos);
+  settings = quick();
+  settings.threads = 100'000;
+  EXPECT_EQ(errorOf(settings), "threads: must be from 0 to 1024");
   settings = quick();
   settings.technique = "cone", settings.layers = true;
   EXPECT_TRUE(errorOf(settings).starts_with("layers: technique cone"));
@@ -178,6 +189,9 @@ TEST(LibraryMeasure, BadMetersAreNamed) {
   EXPECT_FALSE(meters->illuminance(numbers, std::span(numbers).first(3)));
   EXPECT_TRUE(meters->illuminance(numbers, numbers).error().message.starts_with("meter 1: "));
   EXPECT_TRUE(meters->illuminance({}, {}).value().empty());
+  const float far[] = {1e30f, 1, 1}, up[] = {0, 1, 0};
+  EXPECT_EQ(meters->illuminance(far, up).error().message,
+            "meter 0: its position must be within 1000 km and its normal not zero");
 }
 
 }  // namespace
