@@ -185,6 +185,32 @@ class Interruption(unittest.TestCase):
         self.assertLess(time.monotonic() - start, WITHIN_S)
         self.assertEqual(child.returncode, 0, said)
 
+    def test_a_process_that_ends_waits_for_what_cannot_be_cancelled(self):
+        child = self.child("""
+            def work():
+                while True:
+                    begun("open", 0)
+                    roomlight.open(common.ROOM, common.NIGHT)
+            threading.Thread(target=work, daemon=True).start()
+            while not told:
+                time.sleep(0.01)
+            """)
+        said = child.communicate(timeout=120)
+        self.assertEqual(child.returncode, 0, said)
+
+    def test_a_forked_process_ends(self):
+        child = self.child("""
+            import os
+            threading.Thread(target=lambda: roomlight.render(common.lit_cube(), progress=begun, **ENDLESS), daemon=True).start()
+            while not told:
+                time.sleep(0.01)
+            forked = os.fork()
+            if forked:
+                os.waitpid(forked, 0)
+            """)
+        said = child.communicate(timeout=60)
+        self.assertEqual(child.returncode, 0, said)
+
 
 if __name__ == "__main__":
     unittest.main()
