@@ -345,13 +345,20 @@ Vec3 RayScene::transmittance(const Ray& ray) const {
 
 namespace {
 
-// Fills lane i of an eight-wide ray; lanes past the end stay invalid.
+// Fills lane i of an eight-wide ray.
 template <class Ray8>
 void setLane(Ray8& r, unsigned i, const Ray& ray) {
   r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
   r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
   r.tnear[i] = ray.tMin, r.tfar[i] = ray.tMax;
   r.time[i] = 0, r.mask[i] = 0xffffffffu, r.id[i] = i, r.flags[i] = 0;
+}
+
+// Lanes past the end. Where Embree has nothing eight wide, as with NEON and SSE, it takes the eight for a stream: then
+// it does not look at `valid`, and a ray is none that ends before it begins.
+template <class Ray8>
+void emptyLanes(Ray8& r, unsigned from) {
+  for (unsigned i = from; i < 8; ++i) setLane(r, i, {{}, {0, 0, 1}, 0, -1});
 }
 
 RTCHit laneOf(const RTCHit8& hits, unsigned i) {
@@ -384,6 +391,7 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
       r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       valid[i] = -1;
     }
+    emptyLanes(r.ray, n);
     intersect8(valid, state_->top, query, &r);
     for (unsigned i = 0; i < n; ++i) hits[first + i] = state_->hit(laneOf(r.hit, i), r.ray.tfar[i]);
   }
@@ -404,6 +412,7 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) co
       lanes[i] = Vec3(1);
       valid[i] = -1;
     }
+    emptyLanes(r, n);
     occluded8(valid, state_->top, query, &r);
     for (unsigned i = 0; i < n; ++i) left[first + i] = r.tfar[i] < 0 ? Vec3(0) : lanes[i];
   }
