@@ -117,8 +117,8 @@ class Interruption(unittest.TestCase):
             def begun(stage, fraction):
                 global told
                 if not told:
-                    told = True
                     print("begun", flush=True)
+                    told = True
             told = False
             ENDLESS = {"technique": "path", "samples": 100_000, "width": 640, "height": 360}
             """) + textwrap.dedent(work)
@@ -187,13 +187,15 @@ class Interruption(unittest.TestCase):
 
     def test_a_process_that_ends_waits_for_what_cannot_be_cancelled(self):
         child = self.child("""
+            ready = threading.Event()
             def work():
+                begun("open", 0)
+                ready.set()
                 while True:
-                    begun("open", 0)
                     roomlight.open(common.ROOM, common.NIGHT)
             threading.Thread(target=work, daemon=True).start()
-            while not told:
-                time.sleep(0.01)
+            ready.wait()
+            time.sleep(0.3)
             """)
         said = child.communicate(timeout=120)
         self.assertEqual(child.returncode, 0, said)
