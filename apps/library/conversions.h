@@ -27,8 +27,7 @@ namespace roomlight::v1 {
 // Messages name options as the command line has them; callers know them without dashes.
 std::string withoutDashes(std::string message);
 
-inline Error error(ErrorKind kind, const std::string& message) { return {kind, withoutDashes(message)}; }
-inline Error badInput(const std::string& message) { return error(ErrorKind::BadInput, message); }
+inline Error badInput(const std::string& message) { return {ErrorKind::BadInput, withoutDashes(message)}; }
 inline Error interrupted() { return {ErrorKind::Interrupted, "interrupted"}; }
 
 // Whether something may be there: what is farther rays cannot reach with any precision.

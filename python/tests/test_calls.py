@@ -108,6 +108,14 @@ class ThreadsOfPython(unittest.TestCase):
         self.assertGreater(steps[0], 50)  # of 200 on an idle machine
 
 
+def end(group):
+    """A process with all that it has forked."""
+    try:
+        os.killpg(group, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
 class Interruption(unittest.TestCase):
     def child(self, work):
         code = textwrap.dedent("""
@@ -123,7 +131,9 @@ class Interruption(unittest.TestCase):
             ENDLESS = {"technique": "path", "samples": 100_000, "width": 640, "height": 360}
             """) + textwrap.dedent(work)
         child = subprocess.Popen([sys.executable, "-c", code, os.path.dirname(__file__)], text=True, cwd=common.ROOT,
-                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
+        self.addCleanup(child.wait)
+        self.addCleanup(end, child.pid)  # whatever has become of the test
         self.addCleanup(child.stdout.close)
         self.addCleanup(child.stderr.close)
         self.assertEqual(child.stdout.readline(), "begun\n")
