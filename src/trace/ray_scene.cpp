@@ -22,6 +22,12 @@ struct GeometryTag {  // what a filter function needs to know of the geometry it
   const Mesh* mesh;
 };
 
+#if defined(__SANITIZE_THREAD__)
+constexpr const char* kDeviceConfig = "threads=1";  // the sanitizer cannot see how oneTBB orders what builds share
+#else
+constexpr const char* kDeviceConfig = nullptr;
+#endif
+
 constexpr unsigned kStill = 0, kMoving = 1;  // parts of the top, once anything has moved
 
 struct Query : RayQuery {
@@ -177,7 +183,7 @@ Hit RayScene::State::hit(const RTCHit& met, float t) const {
 }
 
 void RayScene::State::build() {
-  if (!device) device = rtcNewDevice(nullptr);
+  if (!device) device = rtcNewDevice(kDeviceConfig);
   check();
   releaseScenes();
   top = newScene();
