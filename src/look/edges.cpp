@@ -1,0 +1,97 @@
+#include "look/edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/tone.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kLeastContrast = 2, kFullContrast = 4;  // of the two sides
+
+// The eight neighbours, around the pixel: the opposite of number k is k + 4.
+constexpr std::array<std::array<int, 2>, 8> kAround = {
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+
+struct Neighbours {
+  const Plane& luminances;
+  int x, y;
+
+  // -1: outside of the picture.
+  float at(size_t number) const {
+    const auto [dx, dy] = kAround[number % kAround.size()];
+    const int qx = x + dx, qy = y + dy;
+    if (qx < 0 || qy < 0 || qx >= luminances.width || qy >= luminances.height) return -1;
+    return luminances.values[index(number)];
+  }
+  size_t index(size_t number) const {
+    const auto [dx, dy] = kAround[number % kAround.size()];
+    return static_cast<size_t>(y + dy) * static_cast<size_t>(luminances.width) + static_cast<size_t>(x + dx);
+  }
+  size_t brightest() const {
+    size_t best = 0;
+    for (size_t k = 1; k < kAround.size(); ++k) {
+      if (at(k) > at(best)) best = k;
+    }
+    return best;
+  }
+  // The middle one of the three opposite: the others may be parts of the edge, or of a third thing.
+  size_t opposite(size_t number) const {
+    std::array<size_t, 3> three = {number + 3, number + 4, number + 5};
+    std::sort(three.begin(), three.end(), [&](size_t a, size_t b) { return at(a) < at(b); });
+    return three[1];
+  }
+};
+
+float weightOf(float contrast) {
+  const float t = std::clamp((contrast - kLeastContrast) / (kFullContrast - kLeastContrast), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+void findInRow(const Image& light, const Plane& luminances, int y, std::vector<EdgePixel>& out) {
+  const auto row = static_cast<size_t>(y) * static_cast<size_t>(light.width);
+  for (int x = 0; x < light.width; ++x) {
+    const Neighbours around{luminances, x, y};
+    const size_t pixel = row + static_cast<size_t>(x), bright = around.brightest();
+    const float own = luminances.values[pixel], high = around.at(bright);
+    if (!(high > own)) continue;
+    const size_t dark = around.opposite(bright);
+    const float low = around.at(dark);
+    if (!(low >= 0 && own > low && high > kLeastContrast * low)) continue;
+    const float share = (own - low) / (high - low);
+    const size_t brightPixel = around.index(bright);
+    const Vec3 rest = max(light.pixels[pixel] - light.pixels[brightPixel] * share, Vec3(0)) / (1 - share);
+    out.push_back(
+        {pixel, brightPixel, around.index(dark), share, weightOf(high / std::max(low, 1e-6f * high)), low, rest});
+  }
+}
+
+}  // namespace
+
+std::vector<EdgePixel> edgePixels(const Image& light) {
+  Plane luminances(light.width, light.height);
+  parallelFor(light.pixels.size(), 16384, [&](size_t i) { luminances.values[i] = luminance(light.pixels[i]); });
+  std::vector<std::vector<EdgePixel>> rows(static_cast<size_t>(light.height));
+  parallelFor(rows.size(), 16, [&](size_t y) { findInRow(light, luminances, static_cast<int>(y), rows[y]); });
+  std::vector<EdgePixel> all;
+  for (const std::vector<EdgePixel>& row : rows) all.insert(all.end(), row.begin(), row.end());
+  return all;
+}
+
+void showEdges(Image& shown, const std::vector<EdgePixel>& edges, const Image& rests) {
+  std::vector<Vec3> mixed(edges.size());
+  parallelFor(edges.size(), 1024, [&](size_t i) {
+    const EdgePixel& e = edges[i];
+    const Vec3 own = shown.pixels[e.pixel], bright = shown.pixels[e.bright], rest = rests.pixels[i];
+    for (int c = 0; c < 3; ++c) {
+      const float both = lerp(srgbDecode(rest[c]), srgbDecode(bright[c]), e.share);
+      mixed[i][c] = srgbEncode(lerp(srgbDecode(own[c]), both, e.weight));
+    }
+  });
+  for (size_t i = 0; i < edges.size(); ++i) shown.pixels[edges[i].pixel] = mixed[i];
+}
+
+}  // namespace roomlight
