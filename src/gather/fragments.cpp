@@ -40,4 +40,28 @@ void addFragments(const Fragments& fragments, const FilterInput& means, const st
   }
 }
 
+Plane thinThings(const std::vector<Fragments>& fragments, const FilterInput& sums,
+                 const std::vector<PixelCount>& counts) {
+  constexpr int kReach = 1;
+  Plane light(sums.width, sums.height), rays(sums.width, sums.height);
+  for (const Fragments& tile : fragments) {
+    for (const Fragment& f : tile) {
+      const int x = static_cast<int>(f.pixel) % sums.width, y = static_cast<int>(f.pixel) / sums.width;
+      const Vec3 place = f.position / f.surface;
+      bool isShown = false;
+      for (int j = std::max(0, y - kReach); j <= std::min(sums.height - 1, y + kReach); ++j) {
+        for (int i = std::max(0, x - kReach); i <= std::min(sums.width - 1, x + kReach); ++i) {
+          const size_t other = static_cast<size_t>(j) * static_cast<size_t>(sums.width) + static_cast<size_t>(i);
+          const FilterPixel o = meanOf(sums.pixels[other], counts[other]);
+          isShown |= other != f.pixel && o.surface > 0 && onOneSheet(f.normal, place, o.normal, o.position);
+        }
+      }
+      if (!isShown) light.values[f.pixel] += luminance(f.diffuse), rays.values[f.pixel] += f.surface;
+    }
+  }
+  for (size_t i = 0; i < light.values.size(); ++i)
+    light.values[i] = rays.values[i] > 0 ? light.values[i] / rays.values[i] : -1;
+  return light;
+}
+
 }  // namespace roomlight

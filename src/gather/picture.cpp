@@ -156,7 +156,7 @@ class Gathering {
     if (settings_.rareApart) {
       planByOthers();
     } else {
-      needed_ = raysNeeded(sums_, counts_, {}, kUnfiltered * tolerance_);
+      needed_ = raysNeeded(sums_, counts_, {}, {}, kUnfiltered * tolerance_);
     }
     planned_ = first;
   }
@@ -166,7 +166,7 @@ class Gathering {
   void planByOthers() {
     const FilteredLuminance left =
         filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) { return meanBeside(sums_, counts_, i); });
-    needed_ = raysNeeded(sums_, counts_, left, tolerance_);
+    needed_ = raysNeeded(sums_, counts_, left, thinThings(fragments_, sums_, counts_), tolerance_);
   }
 
   // Rays `first` to `first` + n of all pixels that ask for them.

@@ -40,6 +40,11 @@ bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition
 void addFragments(const Fragments& fragments, const FilterInput& means, const std::vector<PixelCount>& counts,
                   std::span<const Vec3> irradiance, Image& image);
 
+// Of each pixel the luminance of what it shows beside its own surface and no pixel beside it shows as its own: things
+// and grooves thinner than pixels. -1: nothing. `sums`: over camera rays.
+Plane thinThings(const std::vector<Fragments>& fragments, const FilterInput& sums,
+                 const std::vector<PixelCount>& counts);
+
 constexpr size_t kRaysAtOnce = SharpLights::kMostPoints;
 
 // Random numbers of one pixel. Pixels take their points of one sequence along Morton's curve, so that every square
@@ -166,9 +171,10 @@ FilterPixel meanBeside(const FilterInput& sums, const std::vector<PixelCount>& c
 
 // Of each pixel, how many more rays it needs beside those it had, where its noise is not shared with like neighbours or
 // it is on an edge of a thing; 0: none. `tolerance`: relative standard error of
-// luminance that may be left. `left`: of each pixel after the filter; empty: there is none.
+// luminance that may be left. `left`: of each pixel after the filter; empty: there is none. `thin`: of thinThings();
+// empty: not known.
 std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts,
-                                 const FilteredLuminance& left, float tolerance);
+                                 const FilteredLuminance& left, const Plane& thin, float tolerance);
 
 // One pixel in many gathers light, by as many times the estimates; the filter gives it to the others. Each has its own
 // camera rays, sharp shadows and reflections of smooth surfaces. (Ward, Rubinstein & Clear 1988 gather sparsely and
