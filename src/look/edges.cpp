@@ -51,9 +51,44 @@ float weightOf(float contrast) {
   return t * t * (3 - 2 * t);
 }
 
-void findInRow(const Image& light, const Plane& luminances, int y, std::vector<EdgePixel>& out) {
+// Of each pixel of row y whether it may be an edge: by the range of the nine pixels, in loops without branches.
+class Candidates {
+ public:
+  explicit Candidates(int width)
+      : width_(static_cast<size_t>(width)), most_(width_ + 2), least_(width_ + 2), may_(width_) {}
+
+  const std::vector<uint8_t>& of(const Plane& luminances, int y) {
+    const float* own = luminances.values.data() + static_cast<size_t>(y) * width_;
+    const float* above = y > 0 ? own - width_ : own;
+    const float* below = y + 1 < luminances.height ? own + width_ : own;
+    float* most = most_.data() + 1;
+    float* least = least_.data() + 1;
+    for (size_t x = 0; x < width_; ++x) {
+      most[x] = std::max(own[x], std::max(above[x], below[x]));
+      least[x] = std::min(own[x], std::min(above[x], below[x]));
+    }
+    most_.front() = most_[1], most_.back() = most_[width_];
+    least_.front() = least_[1], least_.back() = least_[width_];
+    for (size_t x = 0; x < width_; ++x) {
+      const float high = std::max(most_[x], std::max(most_[x + 1], most_[x + 2])),
+                  low = std::min(least_[x], std::min(least_[x + 1], least_[x + 2]));
+      may_[x] = high > kLeastContrast * low;
+    }
+    return may_;
+  }
+
+ private:
+  size_t width_;
+  std::vector<float> most_, least_;  // of three in a column; a place more on either side
+  std::vector<uint8_t> may_;
+};
+
+void findInRow(const Image& light, const Plane& luminances, int y, Candidates& candidates,
+               std::vector<EdgePixel>& out) {
   const auto row = static_cast<size_t>(y) * static_cast<size_t>(light.width);
+  const std::vector<uint8_t>& may = candidates.of(luminances, y);
   for (int x = 0; x < light.width; ++x) {
+    if (!may[static_cast<size_t>(x)]) continue;
     const Neighbours around{luminances, x, y};
     const size_t pixel = row + static_cast<size_t>(x), bright = around.brightest();
     const float own = luminances.values[pixel], high = around.at(bright);
@@ -75,7 +110,10 @@ std::vector<EdgePixel> edgePixels(const Image& light) {
   Plane luminances(light.width, light.height);
   parallelFor(light.pixels.size(), 16384, [&](size_t i) { luminances.values[i] = luminance(light.pixels[i]); });
   std::vector<std::vector<EdgePixel>> rows(static_cast<size_t>(light.height));
-  parallelFor(rows.size(), 16, [&](size_t y) { findInRow(light, luminances, static_cast<int>(y), rows[y]); });
+  parallelRanges(rows.size(), 16, [&](size_t begin, size_t end) {
+    Candidates candidates(light.width);
+    for (size_t y = begin; y < end; ++y) findInRow(light, luminances, static_cast<int>(y), candidates, rows[y]);
+  });
   std::vector<EdgePixel> all;
   for (const std::vector<EdgePixel>& row : rows) all.insert(all.end(), row.begin(), row.end());
   return all;
