@@ -1,6 +1,5 @@
 // roomlight doctor: what is there, what is missing for what, and whether known pictures come out right.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +9,8 @@
 
 #include "arguments.h"
 #include "base/parallel.h"
-#include "base/system_facts.h"
+#include "base/platform/files.h"
+#include "base/platform/system_facts.h"
 #include "commands.h"
 #include "console.h"
 #include "engine/settings.h"
@@ -46,7 +46,7 @@ fs::path onPath(const std::string& program) {
   for (std::string folder; std::getline(folders, folder, ':');) {
     const fs::path file = fs::path(folder) / program;
     std::error_code code;
-    if (!folder.empty() && fs::is_regular_file(file, code) && access(file.c_str(), X_OK) == 0) return file;
+    if (!folder.empty() && fs::is_regular_file(file, code) && isExecutable(file)) return file;
   }
   return {};
 }

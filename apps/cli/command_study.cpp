@@ -1,6 +1,5 @@
 // roomlight study: every technique on every scene and light, judged by path.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +11,10 @@
 
 #include "arguments.h"
 #include "base/image_io.h"
+#include "base/platform/machine.h"
 #include "base/platform/module.h"
-#include "base/system_facts.h"
+#include "base/platform/system_facts.h"
+#include "base/platform/terminal.h"
 #include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
@@ -129,8 +130,7 @@ Result<StudySettings> settingsOf(const StudyOptions& o) {
 }
 
 StudyHeader headerOf(const StudySettings& s, const StudyPlan& plan, double loadBefore) {
-  const double memoryMiB =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1048576;
+  const double memoryMiB = installedMemoryBytes() / 1048576;
   StudyHeader h;
   h.about = {{"program", s.program},
              {"memory", fmt::format("{:.1f} GiB", memoryMiB / 1024)},
@@ -243,7 +243,7 @@ StudyTools toolsOf(const Programs& programs, bool reportOnly) {
 // One line that says how far it is, on a terminal over the last one.
 class Line {
  public:
-  explicit Line(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+  explicit Line(bool quiet) : quiet_(quiet), terminal_(isErrorOutputTerminal()) {}
   ~Line() {
     if (terminal_ && !quiet_ && !last_.empty()) fmt::print(stderr, "\n");
   }
@@ -334,8 +334,7 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
   Result<StudySettings> settings = settingsOf(o);
   if (!settings) return failed(settings.error());
   if (const Status s = checkExternals(plan.value(), settings.value()); !s) return failed(s.error());
-  double load = 0;
-  getloadavg(&load, 1);
+  const double load = machineLoad();
   if (load > 0.7 && !o.quiet && !o.reportOnly)
     printWarnings({fmt::format("the machine is busy (load {:.1f}): times will be longer than they need be", load)});
 

@@ -5,7 +5,8 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include "base/platform/worker_thread.h"
+#include "base/platform/flush_to_zero.h"
+#include "base/platform/machine.h"
 
 namespace roomlight {
 

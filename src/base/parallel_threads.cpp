@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/platform/worker_thread.h"
+#include "base/platform/flush_to_zero.h"
+#include "base/platform/machine.h"
 
 namespace roomlight {
 namespace {

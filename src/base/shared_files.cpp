@@ -9,7 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/platform/files.h"
 #include "base/sealed_file.h"
+#include "base/write_file.h"
 
 namespace roomlight {
 namespace {

@@ -1,20 +1,19 @@
 #include "base/write_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <vector>
 
+#include "base/platform/files.h"
+#include "base/platform/process.h"
+
 namespace roomlight {
 
 std::filesystem::path unfinishedName(std::filesystem::path file) {
-  file += fmt::format(".part-{}", getpid());
+  file += fmt::format(".part-{}", processNumber());
   return file;
 }
 
@@ -36,43 +35,20 @@ Status writeWhole(const std::filesystem::path& file, std::string_view bytes) {
   return cannotWrite(file, reason);
 }
 
-int writeSynced(const std::filesystem::path& file, std::string_view bytes) {
-  const int out = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (out < 0) return errno;
-  int reason = 0;
-  while (!bytes.empty() && reason == 0) {
-    const ssize_t written = ::write(out, bytes.data(), bytes.size());
-    if (written > 0) bytes.remove_prefix(static_cast<size_t>(written));
-    if (written < 0 && errno != EINTR) reason = errno;
-  }
-  if (reason == 0 && ::fsync(out) != 0) reason = errno;
-  if (::close(out) != 0 && reason == 0) reason = errno;
-  return reason;
-}
-
 namespace {
 
 constexpr int kMostAttempts = 100;
 
-bool isFileAt(const std::filesystem::path& path, int file) {
-  struct stat ours, there;
-  return ::fstat(file, &ours) == 0 && ::stat(path.c_str(), &there) == 0 && ours.st_dev == there.st_dev &&
-         ours.st_ino == there.st_ino;
-}
-
 struct Hold {
   std::vector<std::filesystem::path> made;  // the innermost first
-  std::filesystem::path lock;
-  int file = -1;  // open and locked
+  LockedFile lock;
 
   Hold() = default;
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
   ~Hold() {
-    // Removed while it is locked: who has opened it meanwhile sees that it is gone.
-    if (file >= 0 && isFileAt(lock, file)) ::unlink(lock.c_str());
-    if (file >= 0) ::close(file);
-    for (const std::filesystem::path& folder : made) ::rmdir(folder.c_str());  // not where there is something in it
+    lock.letGo();
+    for (const std::filesystem::path& folder : made) removeIfEmpty(folder);
   }
 };
 
@@ -92,23 +68,22 @@ std::vector<std::filesystem::path> missing(const std::filesystem::path& folder) 
 
 Result<HeldFolder> holdFolder(const std::filesystem::path& folder) {
   const auto hold = std::make_shared<Hold>();
-  hold->made = missing(folder), hold->lock = folder / ".lock";
+  const std::filesystem::path lock = folder / ".lock";
+  hold->made = missing(folder);
   // Who held it last takes the lock along, and perhaps the folder: then once more.
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     std::error_code code;
     std::filesystem::create_directories(folder, code);
     if (code) return Error{fmt::format("{}: cannot be made: {}", folder.string(), code.message())};
-    const int file = ::open(hold->lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0 && errno == ENOENT && attempt + 1 < kMostAttempts) continue;
-    if (file < 0) return cannotWrite(folder, errno);
-    const int reason = ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-    if (reason == 0 && isFileAt(hold->lock, file)) {
-      hold->file = file;
-      return HeldFolder(hold);
-    }
-    ::close(file);
-    if (reason == EWOULDBLOCK) break;
-    if (reason != 0) return Error{fmt::format("{}: cannot be locked: {}", hold->lock.string(), std::strerror(reason))};
+    int reason = 0;
+    const LockedFile::Outcome outcome = hold->lock.take(lock, reason);
+    if (outcome == LockedFile::Outcome::Held) return HeldFolder(hold);
+    if (outcome == LockedFile::Outcome::HeldByAnother) break;
+    const bool isLast = attempt + 1 == kMostAttempts;
+    if (outcome == LockedFile::Outcome::NotOpened || (reason != 0 && isLast && outcome == LockedFile::Outcome::Gone))
+      return cannotWrite(folder, reason);
+    if (outcome == LockedFile::Outcome::NotLocked)
+      return Error{fmt::format("{}: cannot be locked: {}", lock.string(), std::strerror(reason))};
   }
   return HeldFolder();
 }

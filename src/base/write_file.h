@@ -16,9 +16,6 @@ std::filesystem::path unfinishedName(std::filesystem::path file);
 // file and the system's reason, and leave nothing behind.
 Status writeWhole(const std::filesystem::path& file, std::string_view bytes);
 
-// Written and on the disk, under this name; what stood there is lost. errno; 0: done.
-int writeSynced(const std::filesystem::path& file, std::string_view bytes);
-
 // "file: cannot be written: the system's reason".
 Error cannotWrite(const std::filesystem::path& file, int errorNumber);
 

@@ -1,10 +1,8 @@
 #include "batch/durable.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <chrono>
@@ -12,6 +10,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/platform/files.h"
+#include "base/platform/machine.h"
+#include "base/platform/process.h"
 #include "base/write_file.h"
 
 namespace roomlight::batch {
@@ -19,28 +20,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Status syncOne(const fs::path& path, int flags) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
-  if (file < 0) return cannotWrite(path, errno);
-  // Some file systems sync no folders; those order renames by themselves.
-  const bool done = fsync(file) == 0 || errno == EINVAL || errno == EROFS;
-  const int reason = errno;
-  close(file);
-  return done ? Status(Ok{}) : cannotWrite(path, reason);
+Status synced(const fs::path& path, bool isFolder) {
+  const int reason = isFolder ? syncFolder(path) : syncFile(path);
+  return reason == 0 ? Status(Ok{}) : cannotWrite(path, reason);
 }
 
 }  // namespace
 
 std::string processToken() {
   static const std::string host = [] {
-    char whole[256] = "host";
-    gethostname(whole, sizeof whole - 1);
-    std::string name;
-    for (const char* c = whole; *c && *c != '.'; ++c) name += std::isalnum(static_cast<unsigned char>(*c)) ? *c : '-';
+    std::string name = hostName();
+    if (name.empty()) return std::string("host");
+    name.resize(std::min(name.find('.'), name.size()));
+    for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
     return name;
   }();
   static const auto start = std::chrono::steady_clock::now().time_since_epoch().count() & 0xffffffff;
-  return fmt::format("{}-{}-{:x}", host, getpid(), start);  // a child by fork() has one of its own
+  return fmt::format("{}-{}-{:x}", host, processNumber(), start);  // a child by fork() has one of its own
 }
 
 Status writeDurably(const fs::path& file, std::string_view bytes) {
@@ -52,7 +48,7 @@ Status writeDurably(const fs::path& file, std::string_view bytes) {
     fs::rename(part, file, code);
     if (code) status = cannotWrite(file, code.value());
   }
-  if (status) return syncOne(file.parent_path(), O_DIRECTORY);
+  if (status) return synced(file.parent_path(), true);
   fs::remove(part, code);
   return status;
 }
@@ -61,19 +57,19 @@ Status syncTree(const fs::path& folder) {
   std::error_code code;
   for (fs::recursive_directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     if (it->is_symlink()) continue;
-    if (const Status s = syncOne(it->path(), it->is_directory() ? O_DIRECTORY : 0); !s) return s;
+    if (const Status s = synced(it->path(), it->is_directory()); !s) return s;
   }
-  return code ? Status(cannotWrite(folder, code.value())) : syncOne(folder, O_DIRECTORY);
+  return code ? Status(cannotWrite(folder, code.value())) : synced(folder, true);
 }
 
 Status publishFolder(const fs::path& from, const fs::path& to) {
-  std::error_code code;
-  if (rename(from.c_str(), to.c_str()) != 0) {
-    const int reason = errno;
-    if (reason != ENOTEMPTY && reason != EEXIST) return cannotWrite(to, reason);
+  bool taken = false;
+  if (const int reason = renameFolder(from, to, taken); reason != 0) {
+    if (!taken) return cannotWrite(to, reason);
+    std::error_code code;
     fs::remove_all(from, code);
   }
-  return syncOne(to.parent_path(), O_DIRECTORY);
+  return synced(to.parent_path(), true);
 }
 
 std::string textOf(const fs::path& file) {
@@ -84,8 +80,11 @@ std::string textOf(const fs::path& file) {
 }
 
 bool tellsOfFullDisk(std::string_view line) {
-  return line.find(std::strerror(ENOSPC)) != std::string_view::npos ||
-         line.find(std::strerror(EDQUOT)) != std::string_view::npos;
+  const auto tells = [&](int error) { return line.find(std::strerror(error)) != std::string_view::npos; };
+#ifdef EDQUOT
+  if (tells(EDQUOT)) return true;
+#endif
+  return tells(ENOSPC);
 }
 
 }  // namespace roomlight::batch

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "base/platform/machine.h"
 #include "engine/lit_scene.h"
 #include "gather/frame.h"
 #include "gather/quick_frames.h"

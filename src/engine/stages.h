@@ -3,13 +3,11 @@
 
 #include <string>
 
+#include "base/platform/machine.h"
 #include "base/progress.h"
 #include "engine/render.h"
 
 namespace roomlight {
-
-// The most memory this process has held so far, in MiB.
-double peakMemoryMiB();
 
 class Stages {
  public:

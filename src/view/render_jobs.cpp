@@ -1,7 +1,6 @@
 #include "view/render_jobs.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <exception>
@@ -10,8 +9,9 @@
 
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "base/platform/files.h"
+#include "base/platform/system_facts.h"
 #include "base/progress.h"
-#include "base/system_facts.h"
 #include "look/display.h"
 
 namespace roomlight::view {
@@ -58,11 +58,7 @@ class Teller {
 }  // namespace
 
 RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell, Executor& executor)
-    : home_(home), tell_(std::move(tell)), executor_(executor) {
-  std::error_code code;
-  std::string pattern = (std::filesystem::temp_directory_path(code) / "roomlight-renders-XXXXXX").string();
-  if (!code && mkdtemp(pattern.data())) folder_ = pattern;
-}
+    : home_(home), tell_(std::move(tell)), executor_(executor), folder_(makeTemporaryFolder("roomlight-renders")) {}
 
 RenderJobs::~RenderJobs() {
   executor_.end(Role::RenderFinal);

@@ -1,5 +1,7 @@
 #include "base/platform/module.h"
 
+#ifdef __linux__
+
 #include <dlfcn.h>
 #include <elf.h>
 #include <link.h>
@@ -65,14 +67,16 @@ const std::string& buildId() {
     Module module;
     dl_iterate_phdr(lookAt, &module);
     // A linker that was not asked for it leaves none.
-    return module.buildId.empty() ? hashOf(contentOf("/proc/self/exe").value_or("")) : module.buildId;
+    return module.buildId.empty() ? hashOf(contentOf(runningProgram()).value_or("")) : module.buildId;
   }();
   return id;
 }
 
+std::filesystem::path runningProgram() { return "/proc/self/exe"; }
+
 std::filesystem::path programFolder() {
   std::error_code code;
-  return std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
+  return std::filesystem::read_symlink(runningProgram(), code).parent_path();
 }
 
 std::filesystem::path moduleFolder() {
@@ -95,3 +99,5 @@ std::filesystem::path installed(const std::filesystem::path& below) {
 }
 
 }  // namespace roomlight
+
+#endif

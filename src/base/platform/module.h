@@ -13,7 +13,10 @@ const std::string& buildId();
 // Of the library's file, or of the program where the code is a part of that. Empty where that cannot be told.
 std::filesystem::path moduleFolder();
 
-// Of the program that runs, whatever it is.
+// The program that runs, whatever it is: to start it once more, even where another has been built meanwhile.
+std::filesystem::path runningProgram();
+
+// Where that lies.
 std::filesystem::path programFolder();
 
 // `below` in the prefix of the library, which may lie as deep as in

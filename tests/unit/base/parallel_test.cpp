@@ -12,7 +12,7 @@
 #include <pmmintrin.h>
 #endif
 
-#include "base/platform/worker_thread.h"
+#include "base/platform/flush_to_zero.h"
 
 namespace roomlight {
 namespace {

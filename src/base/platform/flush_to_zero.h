@@ -1,8 +1,5 @@
-// How threads are set up that work in parallel loops.
+// Tiny numbers as zero, in the way that each kind of processor has.
 #pragma once
-
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <cstdint>
 #if defined(__x86_64__)
@@ -10,9 +7,6 @@
 #endif
 
 namespace roomlight {
-
-// On Linux niceness is a thread's own. Where it cannot be set the thread goes on as before.
-inline void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10); }
 
 // Tiny numbers count as zero, as Embree asks, for as long as this lives and in this thread; afterwards as before.
 class FlushToZero {

@@ -1,4 +1,4 @@
-#include "base/system_facts.h"
+#include "base/platform/system_facts.h"
 
 #include <charconv>
 #include <fstream>
