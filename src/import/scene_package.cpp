@@ -1,7 +1,6 @@
 #include "import/scene_package.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "base/platform/files.h"
 #include "import/failure.h"
 #include "import/file_access.h"
 #include "import/guarded.h"
@@ -83,10 +83,8 @@ Result<Imported> importPicked(const fs::path& root, const std::vector<PackedFile
 class UnpackFolder {
  public:
   UnpackFolder() {
-    std::error_code code;
-    std::string pattern = (fs::temp_directory_path(code) / "roomlight-XXXXXX").string();
-    if (code || !mkdtemp(pattern.data())) fail("", "cannot be unpacked: there is no folder for temporary files");
-    path_ = pattern;
+    path_ = makeTemporaryFolder("roomlight");
+    if (path_.empty()) fail("", "cannot be unpacked: there is no folder for temporary files");
   }
   ~UnpackFolder() {
     std::error_code ignored;
