@@ -1,14 +1,13 @@
 // A command of this program as a process of its own, which ends when its parent does.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/platform/process.h"
 #include "base/result.h"
 
 namespace roomlight::batch {
@@ -20,18 +19,18 @@ struct Ended {
   double seconds = 0, peakMiB = 0;
 };
 
+// It is killed, where it still runs, when its object goes.
 class Child {
  public:
   // `program` with these words in this folder. What it prints goes to `printed`, or nowhere where that is empty. To be
   // called from the thread that lives as long as the child shall: its end kills the child.
   static Result<Child> start(const std::filesystem::path& program, const std::vector<std::string>& words,
                              const std::filesystem::path& folder, const std::filesystem::path& printed);
-  Child(Child&& other) noexcept;
+  Child(Child&&) noexcept = default;
   Child& operator=(Child&&) = delete;
-  ~Child();  // kills it where it still runs
 
-  // Readable where it has said something or ended; for poll().
-  int handle() const { return said_; }
+  // For waitForAny().
+  int handle() const { return process_.handle(); }
   double seconds() const;
   // Takes what it has said; true once it has ended.
   bool hasEnded();
@@ -40,11 +39,10 @@ class Child {
   const Ended& ended() const { return ended_; }
 
  private:
-  Child(pid_t process, int said);
-  void judge(int status);
+  explicit Child(StartedProcess process);
+  void judge(const ProcessEnd& end);
 
-  pid_t process_ = 0;  // 0: has ended
-  int said_ = -1;
+  StartedProcess process_;
   uint64_t outOfMemoryBefore_ = 0;
   std::string text_, why_;
   std::chrono::steady_clock::time_point started_;

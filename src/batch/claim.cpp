@@ -1,10 +1,6 @@
 #include "batch/claim.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -12,6 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/platform/files.h"
+#include "base/platform/machine.h"
+#include "base/platform/process.h"
 #include "base/write_file.h"
 #include "batch/durable.h"
 
@@ -20,25 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string firstLine(const char* file) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  return line;
-}
-
-// 0 where there is no such process, or one that is dead and only waits for its parent to ask. Field 22 of /proc/N/stat;
-// the second is a name in parentheses, the third its state.
-uint64_t startOf(pid_t process) {
-  const std::string line = firstLine(fmt::format("/proc/{}/stat", process).c_str());
-  const size_t name = line.rfind(')');
-  if (name == std::string::npos || name + 2 >= line.size()) return 0;
-  if (const char state = line[name + 2]; state == 'Z' || state == 'X') return 0;
-  size_t at = name + 1;
-  for (int field = 2; field < 21 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
-  return at == std::string::npos ? 0 : std::strtoull(line.c_str() + at, nullptr, 10);
-}
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -55,13 +35,11 @@ Owner ownerOf(const std::string& text) {
   Owner o;
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return o;  // half written, or not ours: told by its age
-  o.host = json.value("host", ""), o.machine = json.value("machine", ""), o.process = json.value("process", 0);
+  o.host = json.value("host", ""), o.machine = json.value("machine", ""), o.process = json.value("process", 0L);
   o.started = json.value("started", uint64_t{0}), o.job = json.value("job", ""), o.token = json.value("token", "");
   o.restarts = json.value("restarts", 0);
   return o;
 }
-
-double secondsOf(const timespec& t) { return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec); }
 
 constexpr double kSweptS = 3600;  // what is left of claims that were being made
 
@@ -77,12 +55,8 @@ bool isTask(const std::string& name) {
 
 Owner thisOwner() {
   Owner o;
-  char host[256] = "";
-  gethostname(host, sizeof host - 1);
-  std::error_code code;
-  o.host = host;
-  o.machine = firstLine("/proc/sys/kernel/random/boot_id") + " " + fs::read_symlink("/proc/self/ns/pid", code).string();
-  o.process = getpid(), o.started = startOf(getpid()), o.token = processToken();
+  o.host = hostName(), o.machine = machineIdentity();
+  o.process = processNumber(), o.started = processStart(o.process), o.token = processToken();
   if (const std::string job = variable("SLURM_JOB_ID"); !job.empty()) {
     const std::string array = variable("SLURM_ARRAY_JOB_ID");
     o.job = array.empty() ? job : array + "_" + variable("SLURM_ARRAY_TASK_ID");
@@ -100,19 +74,14 @@ Claims::~Claims() {
 
 // The file server's: clocks of machines differ.
 double Claims::serverTime() const {
-  const fs::path probe = folder_.claims() / (".now-" + self_.token);
-  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  struct stat about {};
-  double now = 0;
-  if (file >= 0 && futimens(file, nullptr) == 0 && fstat(file, &about) == 0) now = secondsOf(about.st_mtim);
-  if (file >= 0) close(file), unlink(probe.c_str());
-  if (now == 0) now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-  return now;
+  const std::optional<double> now = fileServerTime(folder_.claims() / (".now-" + self_.token));
+  if (now && *now != 0) return *now;
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 bool Claims::isStale(const Claim& c) const {
   const Owner& o = c.owner;
-  if (o.host == self_.host && o.machine == self_.machine && o.process > 0) return startOf(o.process) != o.started;
+  if (o.host == self_.host && o.machine == self_.machine && o.process > 0) return processStart(o.process) != o.started;
   // Slurm has started the same job again: its first run is over.
   if (!o.job.empty() && o.job == self_.job && o.restarts < self_.restarts) return true;
   return c.ageS > staleS_;
@@ -125,12 +94,12 @@ std::optional<Claim> Claims::read(const std::string& id) const {
 
 // `now`: 0, or the time by the file server, which is asked for where it is needed.
 std::optional<Claim> Claims::read(const std::string& id, double& now) const {
-  struct stat about {};
-  if (stat((folder_.claims() / id).c_str(), &about) != 0) return std::nullopt;
+  const std::optional<FileFacts> about = factsOf(folder_.claims() / id);
+  if (!about) return std::nullopt;
   Claim claim{id, ownerOf(textOf(folder_.claims() / id)), 0, false};
   const bool isHere = claim.owner.host == self_.host && claim.owner.machine == self_.machine;
   if (!isHere && now == 0) now = serverTime();
-  if (!isHere) claim.ageS = now - secondsOf(about.st_mtim);
+  if (!isHere) claim.ageS = now - about->modifiedS;
   claim.isStale = isStale(claim);
   return claim;
 }
@@ -142,18 +111,18 @@ Result<bool> Claims::link(const std::string& id) const {
   out << jsonOf(self_);
   out.close();
   const int writeError = errno;
+  std::error_code code, ignored;
   if (!out) {
-    unlink(part.c_str());
+    fs::remove(part, ignored);
     return cannotWrite(part, writeError);
   }
-  const bool linked = ::link(part.c_str(), (folder_.claims() / id).c_str()) == 0;
-  const int reason = errno;
-  struct stat about {};
-  const bool mine = linked || (stat(part.c_str(), &about) == 0 && about.st_nlink == 2);
-  unlink(part.c_str());
+  fs::create_hard_link(part, folder_.claims() / id, code);
+  const std::optional<FileFacts> about = code ? factsOf(part) : std::nullopt;
+  const bool mine = !code || (about && about->links == 2);
+  fs::remove(part, ignored);
   if (mine) return true;
-  if (reason == EEXIST) return false;
-  return cannotWrite(folder_.claims() / id, reason);
+  if (code == std::errc::file_exists) return false;
+  return cannotWrite(folder_.claims() / id, code.value());
 }
 
 bool Claims::takeOver(const Claim& stale) const {
@@ -164,7 +133,7 @@ bool Claims::takeOver(const Claim& stale) const {
   if (code) return false;  // another was faster
   const Owner taken = ownerOf(textOf(aside));
   const bool isIt = taken.token == stale.owner.token;
-  if (!isIt) ::link(aside.c_str(), file.c_str());  // a new one in the meantime: back to where it was
+  if (!isIt) fs::create_hard_link(aside, file, code);  // a new one in the meantime: back to where it was
   fs::remove(aside, code);
   if (isIt && !taken.token.empty())
     fs::remove_all(folder_.path() / "out" / stale.id.substr(0, 2) / fmt::format("{}.{}.tmp", stale.id, taken.token),
@@ -191,7 +160,8 @@ Result<bool> Claims::take(const std::string& id) {
 void Claims::release(const std::string& id) {
   held_.erase(id);
   const fs::path file = folder_.claims() / id;
-  if (ownerOf(textOf(file)).token == self_.token) unlink(file.c_str());
+  std::error_code code;
+  if (ownerOf(textOf(file)).token == self_.token) fs::remove(file, code);
 }
 
 bool Claims::holds(const std::string& id) const {
@@ -201,7 +171,7 @@ bool Claims::holds(const std::string& id) const {
 void Claims::beat() {
   if (steadySeconds() - lastBeatS_ < kBeatS) return;
   lastBeatS_ = steadySeconds();
-  for (const std::string& id : held_) utimensat(AT_FDCWD, (folder_.claims() / id).c_str(), nullptr, 0);
+  for (const std::string& id : held_) touch(folder_.claims() / id);
 }
 
 void Claims::sweep() const {
@@ -209,18 +179,17 @@ void Claims::sweep() const {
   const double now = serverTime();
   std::vector<fs::path> old;
   for (fs::directory_iterator it(folder_.claims(), code), end; !code && it != end; it.increment(code)) {
-    struct stat about {};
-    if (it->path().filename().string().starts_with('.') && stat(it->path().c_str(), &about) == 0 &&
-        now - secondsOf(about.st_mtim) > kSweptS)
-      old.push_back(it->path());
+    if (!it->path().filename().string().starts_with('.')) continue;
+    const std::optional<FileFacts> about = factsOf(it->path());
+    if (about && now - about->modifiedS > kSweptS) old.push_back(it->path());
   }
-  for (const fs::path& file : old) unlink(file.c_str());
+  for (const fs::path& file : old) fs::remove(file, code);
   // Claims of tasks that are being done are of no interest here: each of many runners would read all of them.
   double serverNow = now;
   for (const std::string& id : ids()) {
     if (!fs::exists(folder_.done(id), code)) continue;
     const std::optional<Claim> claim = read(id, serverNow);
-    if (claim && claim->isStale) unlink((folder_.claims() / id).c_str());
+    if (claim && claim->isStale) fs::remove(folder_.claims() / id, code);
   }
 }
 

@@ -2,8 +2,6 @@
 // works on NFS without locks. A claim that two hold for a moment does no harm: both results are the same.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -18,7 +16,7 @@ namespace roomlight::batch {
 // A process, among those of all machines.
 struct Owner {
   std::string host, machine;  // name; boot and process namespace: process numbers are told apart by it
-  pid_t process = 0;
+  long process = 0;
   uint64_t started = 0;  // of the process, in clock ticks since the machine's start
   std::string job;  // of Slurm: "1234_5"; empty: none
   int restarts = 0;  // of that job

@@ -1,11 +1,11 @@
 #include "batch/plan_axes.h"
 
 #include <fmt/format.h>
-#include <glob.h>
 
 #include <algorithm>
 #include <charconv>
 
+#include "base/platform/files.h"
 #include "base/utf8.h"
 #include "base/words.h"
 #include "engine/settings.h"
@@ -39,12 +39,8 @@ std::vector<std::string> filesNamed(const TomlPlace& place, const std::string& p
       place.fail(fmt::format("{}: no such file", printable(pattern)));
     return {pattern};
   }
-  glob_t found{};
-  if (glob((paths.plan / pattern).c_str(), 0, nullptr, &found) == 0) {
-    for (size_t i = 0; i < found.gl_pathc; ++i)
-      out.push_back(fs::path(found.gl_pathv[i]).lexically_relative(paths.plan).string());
-  }
-  globfree(&found);
+  for (const fs::path& found : filesNamedLike(paths.plan / pattern))
+    out.push_back(found.lexically_relative(paths.plan).string());
   if (out.empty()) place.fail(fmt::format("{}: no file is named so", printable(pattern)));
   return out;
 }

@@ -1,12 +1,12 @@
 #include "batch/records.h"
 
-#include <dirent.h>
 #include <fmt/format.h>
 
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/platform/files.h"
 #include "base/write_file.h"
 #include "batch/durable.h"
 
@@ -23,15 +23,6 @@ Status keep(const fs::path& file, const Json& json) {
   fs::create_directories(file.parent_path(), code);
   if (code) return cannotWrite(file, code.value());
   return writeDurably(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
-// Names in a folder; faster than std::filesystem where there are many.
-template <class Take>
-void eachName(const fs::path& folder, const Take& take) {
-  DIR* const names = opendir(folder.c_str());
-  if (!names) return;
-  while (const dirent* entry = readdir(names)) take(std::string_view(entry->d_name));
-  closedir(names);
 }
 
 }  // namespace
@@ -66,9 +57,9 @@ void forgetFailed(const Folder& folder, const std::string& id) {
 
 IdSet idsIn(const fs::path& folder) {
   IdSet ids;
-  eachName(folder, [&](std::string_view part) {
+  forEachName(folder, [&](std::string_view part) {
     if (part.size() != 2 || part[0] == '.') return;
-    eachName(folder / part, [&](std::string_view name) {
+    forEachName(folder / part, [&](std::string_view name) {
       uint64_t id = 0;
       const char* const end = name.data() + name.size();
       if (name.size() == kIdDigits && std::from_chars(name.data(), end, id, 16).ptr == end) ids.insert(id);

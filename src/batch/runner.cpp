@@ -1,7 +1,6 @@
 #include "batch/runner.h"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <chrono>
@@ -149,9 +148,9 @@ class Runner {
   // Waits a moment for news of the children, and takes them.
   void look() {
     if (running_.empty()) return;
-    std::vector<pollfd> handles;
-    for (const Running& r : running_) handles.push_back({r.child.handle(), POLLIN, 0});
-    poll(handles.data(), handles.size(), kPollMs);
+    std::vector<int> handles;
+    for (const Running& r : running_) handles.push_back(r.child.handle());
+    waitForAny(handles, kPollMs);
     for (auto it = running_.begin(); it != running_.end();) {
       if (wish_.timeoutS > 0 && it->child.seconds() > wish_.timeoutS)
         it->child.kill(fmt::format("took longer than {:g} s", wish_.timeoutS));
