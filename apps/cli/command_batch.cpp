@@ -1,11 +1,11 @@
 // roomlight batch: many commands as tasks that any number of machines share.
 #include <fmt/format.h>
-#include <sched.h>
 
 #include <cstdlib>
 #include <memory>
 
 #include "arguments.h"
+#include "base/platform/machine.h"
 #include "base/platform/module.h"
 #include "batch/durable.h"
 #include "batch/merge.h"
@@ -42,9 +42,7 @@ Result<batch::TaskList> openBatch(const BatchOptions& o) {
 
 // Cores that this process may use; Slurm and containers leave it a few of a machine's.
 int coresHere() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  const int cores = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+  const int cores = coresAllowed();
   const char* given = std::getenv("SLURM_CPUS_PER_TASK");
   const auto slurm = given ? parseNumber<int>(given) : std::nullopt;
   return slurm && *slurm > 0 ? std::min(*slurm, cores) : cores;
@@ -110,7 +108,7 @@ int runRun(const BatchOptions& o) {
     if (task >= list.value().size()) return failed(fmt::format("{}: is of an earlier plan; submit again", o.list));
   }
   batch::RunWish wish;
-  wish.program = thisProgram(), wish.version = thisBuild(), wish.tasks = std::move(tasks.value());
+  wish.program = runningProgram(), wish.version = thisBuild(), wish.tasks = std::move(tasks.value());
   wish.jobs = o.jobs, wish.cores = coresHere(), wish.timeoutS = o.timeoutS, wish.staleS = o.staleMinutes * 60;
   std::error_code code;
   if (!o.lightCache.empty()) wish.lightCache = fs::absolute(o.lightCache, code).string();
@@ -149,7 +147,7 @@ int runStatus(const BatchOptions& o) {
 int runMerge(const BatchOptions& o) {
   const Result<batch::TaskList> list = openBatch(o);
   if (!list) return failed(list.error());
-  const Result<batch::Merged> merged = batch::mergeBatch(list.value(), thisProgram());
+  const Result<batch::Merged> merged = batch::mergeBatch(list.value(), runningProgram());
   if (!merged) return failed(merged.error(), kFailed);
   const batch::Merged& m = merged.value();
   printWarnings(m.remarks);
@@ -179,7 +177,7 @@ int runSubmit(const BatchOptions& o) {
   }
   batch::SlurmWish wish = o.submit;
   std::error_code code;
-  wish.program = fs::read_symlink(thisProgram(), code);
+  wish.program = fs::read_symlink(runningProgram(), code);
   const batch::SlurmPlan plan = batch::slurmPlan(list.value(), left, wish);
   fmt::print("{} in {} of {}, about {:.0f} min each\n", plural(plan.tasks, "task"), plural(plan.chunks, "chunk"),
              plan.chunk, plan.seconds / static_cast<double>(plan.chunks) / 60);

@@ -1,11 +1,11 @@
 // roomlight optimise: goals in, lighting designs on the best trade-offs out.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <memory>
 
 #include "arguments.h"
 #include "base/parallel.h"
+#include "base/platform/terminal.h"
 #include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
@@ -33,7 +33,7 @@ struct OptimiseOptions {
 // One line that says how far the search is, on a terminal over the last one; elsewhere now and then.
 class SearchLine {
  public:
-  explicit SearchLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+  explicit SearchLine(bool quiet) : quiet_(quiet), terminal_(isErrorOutputTerminal()) {}
   ~SearchLine() { end(); }
   void show(const char* method, const search::State& s, double hypervolume, bool last) {
     if (quiet_ || (!last && watch_.seconds() - at_ < (terminal_ ? 0.3 : 10) && shown_)) return;

@@ -1,15 +1,12 @@
 // roomlight view: walk through a home in a browser.
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <memory>
 
 #include "arguments.h"
+#include "base/platform/terminal.h"
 #include "commands.h"
 #include "console.h"
 #include "engine/settings.h"
@@ -43,38 +40,16 @@ Result<RenderSettings> readSettings(const ServeOptions& o) {
   return s;
 }
 
-// While it lives, a reader that is gone is an error of the write, not the program's end without a word.
-class PipesMayBreak {
- public:
-  PipesMayBreak() {
-    struct sigaction ignore = {};
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &ignore, &before_);
-  }
-  ~PipesMayBreak() { sigaction(SIGPIPE, &before_, nullptr); }
-  PipesMayBreak(const PipesMayBreak&) = delete;
-  PipesMayBreak& operator=(const PipesMayBreak&) = delete;
-
- private:
-  struct sigaction before_ = {};
-};
-
-// Past stdio, which would try again at the end what could not be written. Error: nobody can read them.
+// Error: nobody can read them.
 Status printLinks(const std::vector<std::string>& links) {
-  const PipesMayBreak whileWriting;
-  const std::string text = fmt::format("{}\n", fmt::join(links, "\n"));
-  for (size_t done = 0; done < text.size();) {
-    const ssize_t n = write(STDOUT_FILENO, text.data() + done, text.size() - done);
-    if (n < 0 && errno != EINTR)
-      return Error{fmt::format("nobody can read the page's link: standard output: {}", std::strerror(errno))};
-    done += n > 0 ? static_cast<size_t>(n) : 0;
-  }
-  return Ok{};
+  const int reason = writeToOutput(fmt::format("{}\n", fmt::join(links, "\n")));
+  if (reason == 0) return Ok{};
+  return Error{fmt::format("nobody can read the page's link: standard output: {}", std::strerror(reason))};
 }
 
 int runView(const ServeOptions& o) {
   // Before the number is that of another file.
-  if (fcntl(STDOUT_FILENO, F_GETFD) < 0)
+  if (!isOutputOpen())
     return failed("nobody can read the page's link: standard output is closed; leave it open", kFailed);
   const std::atomic<bool>& stop = interrupted();  // from here on Ctrl-C is ours
   const Result<RenderSettings> settings = readSettings(o);

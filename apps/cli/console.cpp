@@ -1,11 +1,12 @@
 #include "console.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <set>
+
+#include "base/platform/terminal.h"
 
 namespace roomlight::cli {
 namespace {
@@ -70,7 +71,7 @@ void printNotes(const std::vector<std::string>& notes) {
   for (const std::string& n : notes) fmt::print(stderr, "note: {}\n", oneLine(n));
 }
 
-ProgressDisplay::ProgressDisplay(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressDisplay::ProgressDisplay(bool quiet) : quiet_(quiet), terminal_(isErrorOutputTerminal()) {}
 
 void ProgressDisplay::clear() {
   if (barShown_) fmt::print(stderr, "\r\x1b[K");

@@ -2,12 +2,10 @@
 #include "commands.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cmath>
 #include <cstring>
+
+#include "base/platform/machine.h"
 
 namespace roomlight::cli {
 namespace {
@@ -20,11 +18,8 @@ std::string limited(const std::string& text) {
   const double bytes = parseBytes(text).value_or(-1);
   if (bytes < 0) return fmt::format("--memory {}: write a size such as 2GB or 800MB", text);
   if (bytes < kLeastBytes) return fmt::format("--memory {}: give at least 64MiB", text);
-  rlimit limit{};
-  getrlimit(RLIMIT_DATA, &limit);
-  limit.rlim_cur = static_cast<rlim_t>(std::min(bytes, 9e18));
-  if (limit.rlim_max != RLIM_INFINITY) limit.rlim_cur = std::min(limit.rlim_cur, limit.rlim_max);
-  if (setrlimit(RLIMIT_DATA, &limit) != 0) return fmt::format("--memory {}: {}", text, std::strerror(errno));
+  if (const int reason = limitData(bytes); reason != 0)
+    return fmt::format("--memory {}: {}", text, std::strerror(reason));
   gLimit = text;
   return "";
 }

@@ -1,8 +1,6 @@
 #include "output_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -10,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/platform/files.h"
 #include "base/write_file.h"
 
 namespace roomlight::cli {
@@ -25,10 +24,8 @@ Status checkWritable(const std::filesystem::path& file) {
     return Error{fmt::format("{}: is a folder; name a file", file.string())};
   // Trying is the only test that knows of read-only disks, rights and names that are too long.
   const std::filesystem::path probe = unfinishedName(file);
-  const int handle = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (handle < 0) return cannotWrite(file, errno);
-  close(handle);
-  unlink(probe.c_str());
+  if (const int reason = makeNew(probe); reason != 0) return cannotWrite(file, reason);
+  std::filesystem::remove(probe, ignored);
   return Ok{};
 }
 

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "base/image_io.h"
+#include "base/platform/machine.h"
 #include "look/display.h"
 #include "engine/settings.h"
 #include "engine/render.h"
@@ -42,9 +43,7 @@ ReportPicture pictureFor(const Scene& scene, int threads) {
 }
 
 std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
+  const std::tm local = localTime(std::time(nullptr));
   static constexpr const char* kMonths[] = {"January", "February", "March",     "April",   "May",      "June",
                                             "July",    "August",   "September", "October", "November", "December"};
   return fmt::format("{} {} {}", local.tm_mday, kMonths[local.tm_mon], local.tm_year + 1900);

@@ -24,9 +24,6 @@ class BrowserPage {
   std::filesystem::path folder_;
 };
 
-// The file this program was started from.
-std::filesystem::path thisProgram();
-
 // Where a page of ours lies: beside an installed program as `installed`, or in the tree that it was built in as
 // `built`.
 std::filesystem::path pageFolder(const std::string& installed, const std::string& built);

@@ -1,23 +1,17 @@
 #include "admission.h"
 
 #include <fmt/format.h>
-#include <sys/random.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <system_error>
+
+#include "base/platform/machine.h"
 
 namespace roomlight::server {
 
 std::string randomToken() {
   std::array<unsigned char, 16> bytes;
-  size_t filled = 0;
-  while (filled < bytes.size()) {
-    const ssize_t n = getrandom(bytes.data() + filled, bytes.size() - filled, 0);
-    if (n < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "getrandom");
-    filled += n > 0 ? static_cast<size_t>(n) : 0;
-  }
+  fillWithRandomBytes(bytes);
   std::string text;
   for (const unsigned char b : bytes) text += fmt::format("{:02x}", b);
   return text;
