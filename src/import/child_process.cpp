@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 constexpr const char* kReader = "roomlight-model-reader";
 constexpr unsigned kSeconds = 60;
 // A busy machine may give it half of a core.
-constexpr ProcessLimits kLimits{.coreSeconds = kSeconds, .seconds = 2 * kSeconds, .memoryBytes = uint64_t{8} << 30};
+constexpr ProcessLimits kReaderLimits{
+    .coreSeconds = kSeconds, .seconds = 2 * kSeconds, .memoryBytes = uint64_t{8} << 30};
 constexpr int kFailed = 3;  // exit status: stdout says why
 
 std::span<const uint8_t> bytesOf(std::string_view text) {
@@ -55,7 +56,7 @@ Bytes inChildProcess(const fs::path& program, const std::vector<std::string>& ar
 }
 
 void serveParent(const std::function<Bytes(const Bytes& input)>& work) {
-  limitThisProcess(kLimits);
+  limitThisProcess(kReaderLimits);
   // Libraries complain on the terminal; what matters comes back as a failure.
   const int result = takeOverOutput();
   if (result < 0) std::_Exit(1);
