@@ -230,7 +230,7 @@ int workMix(const MixOptions& o, const Display& how, const FollowMix& follow, co
   const ShownMix shown = showMix(home, mixture.value(), how, follow);
   if (const Status s = writeOutputs(o, true, home, mixture.value(), shown, display); !s)
     return failed(s.error(), kFailed);
-  retouch(home, shown.retouch);
+  applyLook(home, shown);
   if (const Status s = writeOutputs(o, false, home, mixture.value(), shown, display); !s)
     return failed(s.error(), kFailed);
   const Metadata metadata = metadataOf(o, home, mixture.value(), shown);

@@ -79,11 +79,11 @@ Result<DisplayImage> Layers::display(const Dials& dials, const DisplayOptions& o
     if (!display) return display.error();
     const ShownMix shown = showMix(state_->home, *mixture, *display, follow);
     ByteImage bytes;
-    if (changesNothing(shown.retouch)) {
+    if (isPlain(shown)) {
       bytes = displayMix(state_->home, mixture->gains, shown.look, true);
     } else {
       MixHome retouched = state_->home;
-      retouch(retouched, shown.retouch);
+      applyLook(retouched, shown);
       bytes = displayMix(retouched, mixture->gains, shown.look, true);
     }
     return DisplayImage{bytes.width, bytes.height, bytes.channels, std::move(bytes.samples)};

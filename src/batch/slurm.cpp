@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <sstream>
 
+#include "base/platform/process.h"
 #include "batch/durable.h"
 #include "batch/status.h"
 
@@ -44,27 +43,11 @@ std::string jobName(const std::string& name) {
   return "roomlight-" + out.substr(0, 40);
 }
 
-struct Output {
-  bool isDone = false;
-  std::string text;  // both streams
-};
-
-Output outputOf(const std::string& command) {
-  Output out;
-  FILE* const pipe = popen((command + " 2>&1").c_str(), "re");
-  if (!pipe) return out;
-  std::array<char, 4096> block{};
-  while (const size_t n = fread(block.data(), 1, block.size(), pipe)) out.text.append(block.data(), n);
-  out.isDone = pclose(pipe) == 0;
-  while (!out.text.empty() && out.text.back() == '\n') out.text.pop_back();
-  return out;
-}
-
-bool isThere(const char* program) { return outputOf(fmt::format("command -v {}", program)).isDone; }
+bool isThere(const char* program) { return runInShell(fmt::format("command -v {}", program)).isDone; }
 
 // "1234" or "1234;cluster" of sbatch --parsable.
 Result<std::string> submit(const fs::path& script, const std::string& options) {
-  const Output out = outputOf(fmt::format("sbatch --parsable {}{}", options, quoted(script.string())));
+  const ShellCommand out = runInShell(fmt::format("sbatch --parsable {}{}", options, quoted(script.string())));
   const std::string number = out.text.substr(0, out.text.find(';'));
   if (out.isDone && !number.empty() && number.find_first_not_of("0123456789") == std::string::npos) return number;
   std::string line = out.text.substr(out.text.rfind('\n') == std::string::npos ? 0 : out.text.rfind('\n') + 1);
@@ -161,7 +144,7 @@ Result<bool> isQueued(const Folder& folder) {
   const std::string jobs = submittedJobs(folder);
   if (jobs.empty()) return false;
   if (!isThere("squeue")) return Error{"squeue is not there"};
-  const Output said = outputOf("squeue -h -o %T -j " + jobs);
+  const ShellCommand said = runInShell("squeue -h -o %T -j " + jobs);
   return said.isDone && !said.text.empty();
 }
 
@@ -169,9 +152,9 @@ std::string slurmStatus(const Folder& folder) {
   const std::string jobs = submittedJobs(folder);
   if (jobs.empty()) return {};
   // The queue forgets jobs; accounting, where there is any, does not.
-  Output said = isThere("sacct") ? outputOf("sacct -n -X -P -o State -j " + jobs) : Output();
+  ShellCommand said = isThere("sacct") ? runInShell("sacct -n -X -P -o State -j " + jobs) : ShellCommand();
   if (!said.isDone || said.text.empty())
-    said = isThere("squeue") ? outputOf("squeue -h -r -o %T -j " + jobs) : Output();
+    said = isThere("squeue") ? runInShell("squeue -h -r -o %T -j " + jobs) : ShellCommand();
   if (!said.isDone) return {};
   std::map<std::string, size_t> counts;
   std::istringstream states(said.text);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace roomlight {
 
 bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition) {
@@ -40,25 +42,34 @@ void addFragments(const Fragments& fragments, const FilterInput& means, const st
   }
 }
 
-Plane thinThings(const std::vector<Fragments>& fragments, const FilterInput& sums,
-                 const std::vector<PixelCount>& counts) {
-  constexpr int kReach = 1;
-  Plane light(sums.width, sums.height), rays(sums.width, sums.height);
-  for (const Fragments& tile : fragments) {
-    for (const Fragment& f : tile) {
-      const int x = static_cast<int>(f.pixel) % sums.width, y = static_cast<int>(f.pixel) / sums.width;
-      const Vec3 place = f.position / f.surface;
-      bool isShown = false;
-      for (int j = std::max(0, y - kReach); j <= std::min(sums.height - 1, y + kReach); ++j) {
-        for (int i = std::max(0, x - kReach); i <= std::min(sums.width - 1, x + kReach); ++i) {
-          const size_t other = static_cast<size_t>(j) * static_cast<size_t>(sums.width) + static_cast<size_t>(i);
-          const FilterPixel o = meanOf(sums.pixels[other], counts[other]);
-          isShown |= other != f.pixel && o.surface > 0 && onOneSheet(f.normal, place, o.normal, o.position);
-        }
-      }
-      if (!isShown) light.values[f.pixel] += luminance(f.diffuse), rays.values[f.pixel] += f.surface;
+namespace {
+
+// Whether a pixel beside the fragment's shows the same sheet as its own surface.
+bool isShownBeside(const Fragment& f, const FilterInput& sums, const std::vector<PixelCount>& counts) {
+  const int x = static_cast<int>(f.pixel) % sums.width, y = static_cast<int>(f.pixel) / sums.width;
+  const Vec3 place = f.position / f.surface;
+  for (int j = std::max(0, y - 1); j <= std::min(sums.height - 1, y + 1); ++j) {
+    for (int k = x - 1; k <= x + 1; ++k) {
+      const int i = sums.wraps ? (k + sums.width) % sums.width : k;
+      if (i < 0 || i >= sums.width || (i == x && j == y)) continue;
+      const size_t other = static_cast<size_t>(j) * static_cast<size_t>(sums.width) + static_cast<size_t>(i);
+      const FilterPixel o = meanOf(sums.pixels[other], counts[other]);
+      if (o.surface > 0 && onOneSheet(f.normal, place, o.normal, o.position)) return true;
     }
   }
+  return false;
+}
+
+}  // namespace
+
+Plane thinThings(const std::vector<Fragments>& fragments, const FilterInput& sums,
+                 const std::vector<PixelCount>& counts) {
+  Plane light(sums.width, sums.height), rays(sums.width, sums.height);
+  parallelFor(fragments.size(), 4, [&](size_t tile) {  // a pixel belongs to one of them
+    for (const Fragment& f : fragments[tile]) {
+      if (!isShownBeside(f, sums, counts)) light.values[f.pixel] += f.luminance, rays.values[f.pixel] += f.surface;
+    }
+  });
   for (size_t i = 0; i < light.values.size(); ++i)
     light.values[i] = rays.values[i] > 0 ? light.values[i] / rays.values[i] : -1;
   return light;

@@ -352,8 +352,10 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
   f->normal += part.normal, f->position += part.position, f->surface += part.surface, f->albedo += part.unlitAlbedo;
   const float weight = part.weight / part.survival;
   for (const SurfaceLight& l : shadings) {
-    f->diffuse += part.left * (l.diffuse + l.rare) * weight, f->albedo += part.left * l.albedo * part.weight;
-    part.pixel.sum->rest += part.left * (l.sharp + l.specular + l.mirrored) * weight;
+    const Vec3 diffuse = part.left * (l.diffuse + l.rare) * weight,
+               other = part.left * (l.sharp + l.specular + l.mirrored) * weight;
+    f->diffuse += diffuse, f->albedo += part.left * l.albedo * part.weight, f->luminance += luminance(diffuse + other);
+    part.pixel.sum->rest += other;
     part.pixel.count->occlusion += l.occlusion * weight;
   }
 }

@@ -28,7 +28,7 @@ struct PixelCount {
 struct Fragment {
   uint32_t pixel;
   Vec3 diffuse, albedo, normal, position;  // sums over camera rays, as FilterPixel's
-  float surface = 0;
+  float surface = 0, luminance = 0;  // luminance: with what of its light is not filtered
 };
 using Fragments = std::vector<Fragment>;  // of a tile
 
@@ -41,7 +41,7 @@ void addFragments(const Fragments& fragments, const FilterInput& means, const st
                   std::span<const Vec3> irradiance, Image& image);
 
 // Of each pixel the luminance of what it shows beside its own surface and no pixel beside it shows as its own: things
-// and grooves thinner than pixels. -1: nothing. `sums`: over camera rays.
+// and grooves thinner than pixels. What they shine by themselves is not in it. -1: nothing. `sums`: over camera rays.
 Plane thinThings(const std::vector<Fragments>& fragments, const FilterInput& sums,
                  const std::vector<PixelCount>& counts);
 

@@ -42,7 +42,7 @@ fs::path modelReader() {
 Bytes inChildProcess(const fs::path& program, const std::vector<std::string>& arguments,
                      std::span<const uint8_t> input) {
   constexpr const char* kNoProcess = "cannot be read, as no process can be started for it";
-  RunToEnd run = runWithInput(program, arguments, input);
+  RunToEnd run = runWithInput(program, arguments, input, {0, kFailed});
   if (!run.isStarted && run.error == 0) fail("", kNoProcess);
   if (!run.isStarted)
     fail("", fmt::format("{} ({}: {})", kNoProcess, program.filename().string(),

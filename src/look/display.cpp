@@ -54,16 +54,6 @@ void dither(Image& image) {
   });
 }
 
-// By as much as the dark side of each edge was.
-Image retouchedRests(const std::vector<EdgePixel>& edges, const Image& retouched) {
-  Image rests(static_cast<int>(edges.size()), 1);
-  for (size_t i = 0; i < edges.size(); ++i) {
-    const float before = edges[i].darkLuminance, now = luminance(retouched.pixels[edges[i].dark]);
-    rests.pixels[i] = edges[i].rest * (before > 0 ? now / before : 1.0f);
-  }
-  return rests;
-}
-
 }  // namespace
 
 White whiteOf(const Display& display, Vec3 lightColour) {
@@ -105,8 +95,9 @@ Image displayed(const Image& image, const Display& display, const White& white, 
   Image adapted(image.width, image.height);
   parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = image.pixels[i] * white.gains; });
   const std::vector<EdgePixel> edges = edgePixels(adapted);
-  retouch(adapted, retouchOf(adapted, display, ev100));
-  Image rests = retouchedRests(edges, adapted);
+  const Retouch by = retouchOf(adapted, display, ev100);
+  retouch(adapted, by);
+  Image rests = retouchedRests(edges, by.gains, adapted);
   Image out = toneMap(std::move(adapted), ev100, display.tone);
   showEdges(out, edges, toneMap(std::move(rests), ev100, display.tone));
   dither(out);

@@ -11,6 +11,10 @@ namespace roomlight {
 namespace {
 
 constexpr float kLeastContrast = 2, kFullContrast = 4;  // of the two sides
+// A few rays do not find less than a thirtieth of a pixel: what is a hundred times darker than its neighbour is a
+// thing by itself.
+constexpr float kLeastShare = 0.003f, kFullShare = 0.012f;
+constexpr float kUneven = 0.05f;  // how far the bright side may differ from one pixel to the next
 
 // The eight neighbours, around the pixel: the opposite of number k is k + 4.
 constexpr std::array<std::array<int, 2>, 8> kAround = {
@@ -46,9 +50,20 @@ struct Neighbours {
   }
 };
 
-float weightOf(float contrast) {
-  const float t = std::clamp((contrast - kLeastContrast) / (kFullContrast - kLeastContrast), 0.0f, 1.0f);
+float smoothStep(float from, float to, float value) {
+  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
+}
+
+Vec3 leftOver(const EdgePixel& e, const Image& light) {
+  return max(light.pixels[e.pixel] - light.pixels[e.bright] * e.share, Vec3(0)) / (1 - e.share);
+}
+
+// What is left over is the small difference of two large amounts: its colour is that of noise where the bright side
+// may differ by as much, or where it comes out too bright.
+float reliability(const EdgePixel& e, Vec3 left, float low, float high) {
+  const float ofDifference = low * (1 - e.share) / std::max(kUneven * e.share * high, 1e-20f);
+  return std::min({1.0f, ofDifference, low / std::max(luminance(left), 1e-20f)});
 }
 
 // Of each pixel of row y whether it may be an edge: by the range of the nine pixels, in loops without branches.
@@ -92,15 +107,22 @@ void findInRow(const Image& light, const Plane& luminances, int y, Candidates& c
     const Neighbours around{luminances, x, y};
     const size_t pixel = row + static_cast<size_t>(x), bright = around.brightest();
     const float own = luminances.values[pixel], high = around.at(bright);
-    if (!(high > own)) continue;
+    if (!(high > own) || !std::isfinite(high)) continue;
     const size_t dark = around.opposite(bright);
     const float low = around.at(dark);
     if (!(low >= 0 && own > low && high > kLeastContrast * low)) continue;
-    const float share = (own - low) / (high - low);
-    const size_t brightPixel = around.index(bright);
-    const Vec3 rest = max(light.pixels[pixel] - light.pixels[brightPixel] * share, Vec3(0)) / (1 - share);
-    out.push_back(
-        {pixel, brightPixel, around.index(dark), share, weightOf(high / std::max(low, 1e-6f * high)), low, rest});
+    EdgePixel e{};
+    e.pixel = static_cast<uint32_t>(pixel), e.bright = static_cast<uint32_t>(around.index(bright)),
+    e.dark = static_cast<uint32_t>(around.index(dark));
+    e.share = (own - low) / (high - low);
+    e.weight = smoothStep(kLeastContrast, kFullContrast, high / std::max(low, 1e-6f * high)) *
+               smoothStep(kLeastShare, kFullShare, e.share);
+    if (!(e.weight > 0) || !(e.share < 1)) continue;
+    e.darkLight = light.pixels[e.dark];
+    const Vec3 left = leftOver(e, light);
+    e.ownColour = reliability(e, left, low, high);
+    e.rest = lerp(e.darkLight, left, e.ownColour);
+    out.push_back(e);
   }
 }
 
@@ -114,22 +136,69 @@ std::vector<EdgePixel> edgePixels(const Image& light) {
     Candidates candidates(light.width);
     for (size_t y = begin; y < end; ++y) findInRow(light, luminances, static_cast<int>(y), candidates, rows[y]);
   });
+  size_t count = 0;
+  for (const std::vector<EdgePixel>& row : rows) count += row.size();
   std::vector<EdgePixel> all;
-  for (const std::vector<EdgePixel>& row : rows) all.insert(all.end(), row.begin(), row.end());
+  all.reserve(count);
+  for (std::vector<EdgePixel>& row : rows) {
+    all.insert(all.end(), row.begin(), row.end());
+    row = {};
+  }
   return all;
 }
+
+std::vector<EdgePixel> edgesIn(const Image& light, std::vector<EdgePixel> edges) {
+  parallelFor(edges.size(), 1024, [&](size_t i) {
+    EdgePixel& e = edges[i];
+    e.darkLight = light.pixels[e.dark];
+    e.rest = lerp(e.darkLight, leftOver(e, light), e.ownColour);
+  });
+  return edges;
+}
+
+Image retouchedRests(const std::vector<EdgePixel>& edges, const Plane& gains, const Image& retouched) {
+  Image rests(static_cast<int>(edges.size()), 1);
+  parallelFor(edges.size(), 1024, [&](size_t i) {
+    const EdgePixel& e = edges[i];
+    const float gain = gains.values.empty() ? 1.0f : gains.values[e.dark];
+    // What glare adds there, it adds to both.
+    rests.pixels[i] = max(retouched.pixels[e.dark] + (e.rest - e.darkLight) * gain, Vec3(0));
+  });
+  return rests;
+}
+
+namespace {
+
+float shownValue(const EdgePixel& e, float own, float bright, float rest) {
+  return srgbEncode(lerp(srgbDecode(own), lerp(srgbDecode(rest), srgbDecode(bright), e.share), e.weight));
+}
+
+}  // namespace
 
 void showEdges(Image& shown, const std::vector<EdgePixel>& edges, const Image& rests) {
   std::vector<Vec3> mixed(edges.size());
   parallelFor(edges.size(), 1024, [&](size_t i) {
     const EdgePixel& e = edges[i];
-    const Vec3 own = shown.pixels[e.pixel], bright = shown.pixels[e.bright], rest = rests.pixels[i];
-    for (int c = 0; c < 3; ++c) {
-      const float both = lerp(srgbDecode(rest[c]), srgbDecode(bright[c]), e.share);
-      mixed[i][c] = srgbEncode(lerp(srgbDecode(own[c]), both, e.weight));
-    }
+    for (int c = 0; c < 3; ++c)
+      mixed[i][c] = shownValue(e, shown.pixels[e.pixel][c], shown.pixels[e.bright][c], rests.pixels[i][c]);
   });
   for (size_t i = 0; i < edges.size(); ++i) shown.pixels[edges[i].pixel] = mixed[i];
+}
+
+void showEdges(ByteImage& shown, const std::vector<EdgePixel>& edges, const ByteImage& rests) {
+  std::vector<uint8_t> mixed(3 * edges.size());
+  parallelFor(edges.size(), 1024, [&](size_t i) {
+    const EdgePixel& e = edges[i];
+    const auto value = [](const ByteImage& image, size_t pixel, size_t c) {
+      return static_cast<float>(image.samples[3 * pixel + c]) / 255;
+    };
+    for (size_t c = 0; c < 3; ++c) {
+      const float v = shownValue(e, value(shown, e.pixel, c), value(shown, e.bright, c), value(rests, i, c));
+      mixed[3 * i + c] = static_cast<uint8_t>(v * 255 + 0.5f);
+    }
+  });
+  for (size_t i = 0; i < edges.size(); ++i)
+    std::copy_n(mixed.data() + 3 * i, 3, shown.samples.data() + size_t{3} * edges[i].pixel);
 }
 
 }  // namespace roomlight

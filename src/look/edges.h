@@ -9,17 +9,27 @@
 
 namespace roomlight {
 
-// A pixel that lies between its brightest neighbour and those opposite of it.
+// A pixel that lies between its brightest neighbour and those opposite.
 struct EdgePixel {
-  size_t pixel, bright, dark;  // indices into the picture
-  float share;                 // of the pixel that the bright side covers
-  float weight;                // 0 to 1: how far it is shown so; contrasts of less than 2 are shown as they are
-  float darkLuminance;
+  uint32_t pixel, bright, dark;  // indices into the picture
+  float share;                   // of the pixel that the bright side covers
+  float weight;                  // 0 to 1: how far it is shown so
+  float ownColour;  // 0 to 1: how far the rest has the colour that is left over, not that of the dark side
+  Vec3 darkLight;  // of the dark side
   Vec3 rest;  // light of what the bright side does not cover
 };
+
+// `light`: before local exposure and glare. Edges of contrast 2 or less are none, from 4 on they are shown so in full.
 std::vector<EdgePixel> edgePixels(const Image& light);
 
-// `shown`: of that picture, encoded; `rests`: of the rests, encoded, one a pixel.
+// The same edges in other light, such as that of one layer.
+std::vector<EdgePixel> edgesIn(const Image& light, std::vector<EdgePixel> edges);
+
+// The rests, one a pixel, after what was done to the picture: `gains` of local exposure (empty: none), and glare.
+Image retouchedRests(const std::vector<EdgePixel>& edges, const Plane& gains, const Image& retouched);
+
+// `shown`: of that picture, encoded; `rests`: of the rests, encoded.
 void showEdges(Image& shown, const std::vector<EdgePixel>& edges, const Image& rests);
+void showEdges(ByteImage& shown, const std::vector<EdgePixel>& edges, const ByteImage& rests);  // of three channels
 
 }  // namespace roomlight

@@ -43,6 +43,8 @@ Status applyToLamps(const std::vector<LayerInfo>& layers, const std::string& tex
   return Ok{};
 }
 
+bool changesNothing(const Retouch& by) { return by.gains.values.empty() && by.glare <= 0 && by.vignette <= 0; }
+
 Vec3 lightColourOf(const MixHome& home, const Mixture& mixture) {
   Vec3 sum;
   for (size_t i = 0; i < home.layers.size(); ++i)
@@ -61,6 +63,7 @@ Image linearMix(const MixHome& home, std::span<const Vec3> gains) {
 
 ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Look& look, bool transparent) {
   ByteImage mixed = mixDisplay(home.stack, gains, look);
+  if (!home.edges.empty()) showEdges(mixed, home.edges, mixDisplay(home.rests, gains, look));
   const Sights& sights = home.sights;
   if (sights.section.empty()) return mixed;
   const bool alpha =
@@ -156,32 +159,39 @@ ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& dis
   ShownMix shown;
   Mixture unmixed;
   for (const LayerInfo& l : home.layers) unmixed.gains.push_back(Vec3(1)), unmixed.hues.push_back(l.colour);
-  const bool looks = !display.ev100 || display.localExposure > 0;
-  Image metered = looks ? linearMix(home, follow.exposure ? mixture.gains : unmixed.gains) : Image();
+  const std::vector<Vec3>& meteredGains = follow.exposure ? mixture.gains : unmixed.gains;
+  Image metered = linearMix(home, meteredGains);
   shown.look.ev100 = ev100Of(display, metered);
   shown.look.tone = display.tone;
   shown.white = whiteOf(
       display, follow.white ? lightColourOf(home, mixture) : home.lightColour.value_or(lightColourOf(home, unmixed)));
   shown.look.whiteBalance = matrixOf(shown.white);
-  if (looks && !home.sights.section.empty())
-    metered = mixLinear(
-        home.stack, follow.exposure ? mixture.gains : unmixed.gains);  // as layers are, without sections and backdrop
+  if (!home.sights.section.empty())
+    metered = mixLinear(home.stack, meteredGains);  // as layers are, without sections and backdrop
   for (Vec3& p : metered.pixels) p *= shown.white.gains;
+  shown.edges = edgePixels(metered);
   shown.retouch = retouchOf(metered, display, shown.look.ev100);
   return shown;
 }
 
-bool changesNothing(const Retouch& by) { return by.gains.values.empty() && by.glare <= 0 && by.vignette <= 0; }
+bool isPlain(const ShownMix& shown) { return changesNothing(shown.retouch) && shown.edges.empty(); }
 
-void retouch(MixHome& home, const Retouch& by) {
-  if (changesNothing(by)) return;
-  std::vector<Vec3> alone(home.layers.size());
-  for (size_t i = 0; i < home.layers.size(); ++i) {
+void applyLook(MixHome& home, const ShownMix& shown) {
+  if (isPlain(shown)) return;
+  const size_t count = home.layers.size();
+  home.edges = shown.edges;
+  home.rests = makeLayerStack(static_cast<int>(home.edges.size()), 1, count);
+  std::vector<Vec3> alone(count);
+  for (size_t i = 0; i < count; ++i) {
     alone[i] = Vec3(1);
     Image layer = mixLinear(home.stack, alone);
     alone[i] = {};
-    retouch(layer, by);
-    setLayer(home.stack, i, layer);
+    const std::vector<EdgePixel> edges = edgesIn(layer, home.edges);
+    if (!changesNothing(shown.retouch)) {
+      retouch(layer, shown.retouch);
+      setLayer(home.stack, i, layer);
+    }
+    if (!edges.empty()) setLayer(home.rests, i, retouchedRests(edges, shown.retouch.gains, layer));
   }
 }
 

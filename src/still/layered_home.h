@@ -9,6 +9,7 @@
 #include "base/image_layers.h"
 #include "engine/sights.h"
 #include "look/display.h"
+#include "look/edges.h"
 #include "mix/layer_info.h"
 #include "mix/mixer.h"
 
@@ -19,6 +20,8 @@ struct MixHome {
   LayerStack stack;            // of what is left of each pixel beside sections and backdrop
   Sights sights;
   std::optional<Vec3> lightColour;  // of the unmixed picture
+  std::vector<EdgePixel> edges;     // of the unmixed picture, once its look is applied;
+  LayerStack rests;                 // of each, in layers, what its bright side does not cover
 };
 // The mix as the file has it: light of whole pixels.
 Image linearMix(const MixHome& home, std::span<const Vec3> gains);
@@ -48,16 +51,17 @@ struct ShownMix {
   Look look;
   White white;
   Retouch retouch;
+  std::vector<EdgePixel> edges;
 };
 struct FollowMix {
   bool exposure = false, white = false;
 };
 ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display, const FollowMix& follow);
-// Whether there is none of them.
-bool changesNothing(const Retouch& by);
-// Applies local exposure, glare and vignette to every layer in place. Write linear (.exr) mixes before: afterwards the
-// layers no longer hold cd/m².
-void retouch(MixHome& home, const Retouch& by);
+// Whether pictures can be made without applyLook().
+bool isPlain(const ShownMix& shown);
+// Applies local exposure, glare and vignette to every layer in place, and parts edges. Write linear (.exr) mixes
+// before: afterwards the layers no longer hold cd/m².
+void applyLook(MixHome& home, const ShownMix& shown);
 
 // The name before the last '=', and what is behind it.
 struct Assignment {

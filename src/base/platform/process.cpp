@@ -13,6 +13,7 @@
 #endif
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -117,6 +118,7 @@ StartedProcess::Said StartedProcess::read(std::string& text) const {
 }
 
 std::optional<ProcessEnd> StartedProcess::end() {
+  if (process_ <= 0) return std::nullopt;
   int status = 0;
   rusage used{};
   const pid_t got = ::wait4(static_cast<pid_t>(process_), &status, WNOHANG, &used);

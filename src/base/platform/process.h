@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,8 +73,16 @@ struct RunToEnd {
   int exitStatus = -1;  // -1: it ended otherwise
   std::optional<std::vector<uint8_t>> output;  // what it wrote to stdout; none where it cannot be read back
 };
+// The output is read where the program ends with one of the statuses `withOutput`.
 RunToEnd runWithInput(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                      std::span<const uint8_t> input);
+                      std::span<const uint8_t> input, std::initializer_list<int> withOutput);
+
+// A command of the shell, run to its end.
+struct ShellCommand {
+  bool isDone = false;  // with status 0
+  std::string text;  // both streams, without line ends at its end
+};
+ShellCommand runInShell(const std::string& command);
 
 // The side of such a program. Without a memory image (core) either.
 struct ProcessLimits {

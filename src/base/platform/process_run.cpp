@@ -12,7 +12,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -92,9 +95,9 @@ class Start {
 #endif
     ::posix_spawnattr_setflags(&attributes_, flags);
     sigset_t signals;
-    ::sigemptyset(&signals);
+    sigemptyset(&signals);
     ::posix_spawnattr_setsigmask(&attributes_, &signals);  // or a thread that blocks them would make limits endless
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGALRM, SIGXCPU}) ::sigaddset(&signals, number);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGALRM, SIGXCPU}) sigaddset(&signals, number);
     ::posix_spawnattr_setsigdefault(&attributes_, &signals);
   }
   ~Start() {
@@ -160,7 +163,7 @@ void startQuietly(const std::string& program, std::string argument) {
 }
 
 RunToEnd runWithInput(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                      std::span<const uint8_t> input) {
+                      std::span<const uint8_t> input, std::initializer_list<int> withOutput) {
   RunToEnd run;
   const MemoryFile in, out;
   if (out.number() < 0 || !writeAll(in.number(), input) || !in.rewind()) return run;
@@ -169,7 +172,19 @@ RunToEnd runWithInput(const std::filesystem::path& program, const std::vector<st
   run.isStarted = run.error == 0;
   if (!run.isStarted) return run;
   run.exitStatus = waitFor(child);
-  if (run.exitStatus >= 0 && out.rewind()) run.output = readAll(out.number());
+  const bool hasOutput = std::find(withOutput.begin(), withOutput.end(), run.exitStatus) != withOutput.end();
+  if (hasOutput && out.rewind()) run.output = readAll(out.number());
+  return run;
+}
+
+ShellCommand runInShell(const std::string& command) {
+  ShellCommand run;
+  FILE* const pipe = ::popen((command + " 2>&1").c_str(), "re");
+  if (!pipe) return run;
+  std::array<char, 4096> block{};
+  while (const size_t n = std::fread(block.data(), 1, block.size(), pipe)) run.text.append(block.data(), n);
+  run.isDone = ::pclose(pipe) == 0;
+  while (!run.text.empty() && run.text.back() == '\n') run.text.pop_back();
   return run;
 }
 
