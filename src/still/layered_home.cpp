@@ -99,7 +99,8 @@ Result<MixHome> layersOf(LayeredImage picture, const std::string& file) {
   Result<std::vector<LayerInfo>> layers = layersFromJson(text->second, fmt::format("{}: {}", file, kLayersKey));
   if (!layers) return Error{layers.error()};
   const auto isSights = [](const PictureLayer& l) { return l.channel == kSightsChannel; };
-  MixHome home{std::move(layers).value(), {}, {}, lightColourIn(picture.metadata)};
+  MixHome home;
+  home.layers = std::move(layers).value(), home.lightColour = lightColourIn(picture.metadata);
   if (const auto found = std::find_if(picture.layers.begin(), picture.layers.end(), isSights);
       found != picture.layers.end()) {
     for (const Vec3 p : found->image.pixels) {
