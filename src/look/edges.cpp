@@ -59,11 +59,14 @@ Vec3 leftOver(const EdgePixel& e, const Image& light) {
   return max(light.pixels[e.pixel] - light.pixels[e.bright] * e.share, Vec3(0)) / (1 - e.share);
 }
 
-// What is left over is the small difference of two large amounts: its colour is that of noise where the bright side
-// may differ by as much, or where it comes out too bright.
-float reliability(const EdgePixel& e, Vec3 left, float low, float high) {
-  const float ofDifference = low * (1 - e.share) / std::max(kUneven * e.share * high, 1e-20f);
-  return std::min({1.0f, ofDifference, low / std::max(luminance(left), 1e-20f)});
+// How far a pixel is no mixture of the two sides, but shows a third thing: light that some channel lacks once the
+// bright side's share is taken from it. 0 or less: none.
+float missingLight(const EdgePixel& e, const Image& light) {
+  return -minComponent(light.pixels[e.pixel] - light.pixels[e.bright] * e.share) / (1 - e.share);
+}
+
+float fade(float value, float from, float width) {
+  return 1 - std::clamp((value - from) / std::max(width, 1e-20f), 0.0f, 1.0f);
 }
 
 // Of each pixel of row y whether it may be an edge: by the range of the nine pixels, in loops without branches.
@@ -117,11 +120,14 @@ void findInRow(const Image& light, const Plane& luminances, int y, Candidates& c
     e.share = (own - low) / (high - low);
     e.weight = smoothStep(kLeastContrast, kFullContrast, high / std::max(low, 1e-6f * high)) *
                smoothStep(kLeastShare, kFullShare, e.share);
-    if (!(e.weight > 0) || !(e.share < 1)) continue;
+    if (!(e.share < 1)) continue;
+    const float uneven = kUneven * e.share * high / (1 - e.share), missing = missingLight(e, light);
+    e.weight *= fade(missing, 2 * uneven, low + 2 * uneven);
+    if (!(e.weight > 0)) continue;
     e.darkLight = light.pixels[e.dark];
-    const Vec3 left = leftOver(e, light);
-    e.ownColour = reliability(e, left, low, high);
-    e.rest = lerp(e.darkLight, left, e.ownColour);
+    // What is left over is the small difference of two large amounts: where it may be unevenness, so is its colour.
+    e.ownColour = std::min(1.0f, low / std::max(uneven, 1e-20f)) * fade(missing, 0, low);
+    e.rest = lerp(e.darkLight, leftOver(e, light), e.ownColour);
     out.push_back(e);
   }
 }
@@ -167,38 +173,22 @@ Image retouchedRests(const std::vector<EdgePixel>& edges, const Plane& gains, co
   return rests;
 }
 
-namespace {
-
-float shownValue(const EdgePixel& e, float own, float bright, float rest) {
-  return srgbEncode(lerp(srgbDecode(own), lerp(srgbDecode(rest), srgbDecode(bright), e.share), e.weight));
+Vec3 shownEdge(const EdgePixel& e, Vec3 own, Vec3 bright, Vec3 rest) {
+  Vec3 shown;
+  for (int c = 0; c < 3; ++c) {
+    const float both = lerp(srgbDecode(rest[c]), srgbDecode(bright[c]), e.share);
+    shown[c] = srgbEncode(lerp(srgbDecode(own[c]), both, e.weight));
+  }
+  return shown;
 }
-
-}  // namespace
 
 void showEdges(Image& shown, const std::vector<EdgePixel>& edges, const Image& rests) {
   std::vector<Vec3> mixed(edges.size());
   parallelFor(edges.size(), 1024, [&](size_t i) {
     const EdgePixel& e = edges[i];
-    for (int c = 0; c < 3; ++c)
-      mixed[i][c] = shownValue(e, shown.pixels[e.pixel][c], shown.pixels[e.bright][c], rests.pixels[i][c]);
+    mixed[i] = shownEdge(e, shown.pixels[e.pixel], shown.pixels[e.bright], rests.pixels[i]);
   });
   for (size_t i = 0; i < edges.size(); ++i) shown.pixels[edges[i].pixel] = mixed[i];
-}
-
-void showEdges(ByteImage& shown, const std::vector<EdgePixel>& edges, const ByteImage& rests) {
-  std::vector<uint8_t> mixed(3 * edges.size());
-  parallelFor(edges.size(), 1024, [&](size_t i) {
-    const EdgePixel& e = edges[i];
-    const auto value = [](const ByteImage& image, size_t pixel, size_t c) {
-      return static_cast<float>(image.samples[3 * pixel + c]) / 255;
-    };
-    for (size_t c = 0; c < 3; ++c) {
-      const float v = shownValue(e, value(shown, e.pixel, c), value(shown, e.bright, c), value(rests, i, c));
-      mixed[3 * i + c] = static_cast<uint8_t>(v * 255 + 0.5f);
-    }
-  });
-  for (size_t i = 0; i < edges.size(); ++i)
-    std::copy_n(mixed.data() + 3 * i, 3, shown.samples.data() + size_t{3} * edges[i].pixel);
 }
 
 }  // namespace roomlight

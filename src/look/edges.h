@@ -28,8 +28,10 @@ std::vector<EdgePixel> edgesIn(const Image& light, std::vector<EdgePixel> edges)
 // The rests, one a pixel, after what was done to the picture: `gains` of local exposure (empty: none), and glare.
 Image retouchedRests(const std::vector<EdgePixel>& edges, const Plane& gains, const Image& retouched);
 
+// What an edge pixel shows, from what the curve makes of it, of its bright side and of its rest; all encoded.
+Vec3 shownEdge(const EdgePixel& edge, Vec3 own, Vec3 bright, Vec3 rest);
+
 // `shown`: of that picture, encoded; `rests`: of the rests, encoded.
 void showEdges(Image& shown, const std::vector<EdgePixel>& edges, const Image& rests);
-void showEdges(ByteImage& shown, const std::vector<EdgePixel>& edges, const ByteImage& rests);  // of three channels
 
 }  // namespace roomlight

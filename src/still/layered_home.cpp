@@ -45,6 +45,33 @@ Status applyToLamps(const std::vector<LayerInfo>& layers, const std::string& tex
 
 bool changesNothing(const Retouch& by) { return by.gains.values.empty() && by.glare <= 0 && by.vignette <= 0; }
 
+Image sidesOf(const std::vector<EdgePixel>& edges, const Plane& gains, const Image& retouched) {
+  const size_t count = edges.size();
+  Image sides(static_cast<int>(count), 3);
+  const Image rests = retouchedRests(edges, gains, retouched);
+  for (size_t i = 0; i < count; ++i) {
+    sides.pixels[i] = rests.pixels[i], sides.pixels[count + i] = retouched.pixels[edges[i].bright],
+    sides.pixels[2 * count + i] = retouched.pixels[edges[i].pixel];
+  }
+  return sides;
+}
+
+// As mixDisplay() shows them, before they are cut to bytes.
+void showEdges(const MixHome& home, std::span<const Vec3> gains, const Look& look, ByteImage& mixed) {
+  const size_t count = home.edges.size();
+  Image sides = mixLinear(home.sides, gains);
+  for (Vec3& p : sides.pixels) p = look.whiteBalance.vector(p);
+  sides = toneMap(std::move(sides), look.ev100, look.tone);
+  parallelFor(count, 1024, [&](size_t i) {
+    const EdgePixel& e = home.edges[i];
+    const Vec3 shown = shownEdge(e, sides.pixels[2 * count + i], sides.pixels[count + i], sides.pixels[i]);
+    const int x = static_cast<int>(e.pixel) % mixed.width, y = static_cast<int>(e.pixel) / mixed.width;
+    for (int c = 0; c < 3; ++c)
+      mixed.samples[size_t{3} * e.pixel + static_cast<size_t>(c)] =
+          static_cast<uint8_t>(static_cast<int>(shown[c] * 255 + ditherAt(x, y)));
+  });
+}
+
 Vec3 lightColourOf(const MixHome& home, const Mixture& mixture) {
   Vec3 sum;
   for (size_t i = 0; i < home.layers.size(); ++i)
@@ -63,7 +90,7 @@ Image linearMix(const MixHome& home, std::span<const Vec3> gains) {
 
 ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Look& look, bool transparent) {
   ByteImage mixed = mixDisplay(home.stack, gains, look);
-  if (!home.edges.empty()) showEdges(mixed, home.edges, mixDisplay(home.rests, gains, look));
+  if (!home.edges.empty()) showEdges(home, gains, look, mixed);
   const Sights& sights = home.sights;
   if (sights.section.empty()) return mixed;
   const bool alpha =
@@ -181,7 +208,7 @@ void applyLook(MixHome& home, const ShownMix& shown) {
   if (isPlain(shown)) return;
   const size_t count = home.layers.size();
   home.edges = shown.edges;
-  home.rests = makeLayerStack(static_cast<int>(home.edges.size()), 1, count);
+  home.sides = makeLayerStack(static_cast<int>(home.edges.size()), 3, count);
   std::vector<Vec3> alone(count);
   for (size_t i = 0; i < count; ++i) {
     alone[i] = Vec3(1);
@@ -192,7 +219,7 @@ void applyLook(MixHome& home, const ShownMix& shown) {
       retouch(layer, shown.retouch);
       setLayer(home.stack, i, layer);
     }
-    if (!edges.empty()) setLayer(home.rests, i, retouchedRests(edges, shown.retouch.gains, layer));
+    if (!edges.empty()) setLayer(home.sides, i, sidesOf(edges, shown.retouch.gains, layer));
   }
 }
 

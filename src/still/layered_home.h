@@ -21,7 +21,7 @@ struct MixHome {
   Sights sights;
   std::optional<Vec3> lightColour;  // of the unmixed picture
   std::vector<EdgePixel> edges;     // of the unmixed picture, once its look is applied;
-  LayerStack rests;                 // of each, in layers, what its bright side does not cover
+  LayerStack sides;                 // three rows, a pixel an edge: the rest, the bright side, both
 };
 // The mix as the file has it: light of whole pixels.
 Image linearMix(const MixHome& home, std::span<const Vec3> gains);

@@ -108,6 +108,12 @@ TEST(Edges, thingsKeepTheirColourBesideAWindow) {
   EXPECT_LT(leaf.y, 0.1f);
 }
 
+// The lit underside of a lintel, a pixel wide: brighter than white, and greener than any mixture of wall and sky.
+TEST(Edges, aThirdThingIsShownAsItIs) {
+  const Vec3 lintel{3, 3.2f, 1}, sky{8, 9, 10}, shown = shownColumn(lintel, sky, plain());
+  EXPECT_GT(minComponent(shown), 0.95f);
+}
+
 // What has a five-hundredth of the sky is no mixture that a few rays could have found.
 TEST(Edges, thingsFarDarkerThanTheSkyKeepTheirBrightness) {
   EXPECT_NEAR(shownColumn(Vec3(0.5f), Vec3(250), plain()).y, 0.5f, 0.02f);
