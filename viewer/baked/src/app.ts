@@ -193,6 +193,7 @@ export class App {
 
   // Beside the controls on wide screens, behind them on narrow ones.
   private resize(): void {
+    if (this.inVr) return;
     const widthPx = innerWidth - (this.panelOpen && innerWidth > kNarrowPx ? kPanelPx : 0);
     this.canvas.style.width = `${widthPx}px`;
     this.stage.resize(widthPx, innerHeight, Math.min(devicePixelRatio, kMostPixelShare) * this.pace.share);
@@ -375,6 +376,7 @@ export class App {
     try {
       const headset = new Headset(this.stage, this.mover);
       await headset.enter(
+        () => (this.inVr = true),
         nowMs => this.advance(nowMs),
         () => {
           this.inVr = false;
@@ -382,7 +384,6 @@ export class App {
           requestAnimationFrame(nowMs => this.frame(nowMs));
         },
       );
-      this.inVr = true;
     } catch {
       this.tell(this.say("vrFailed"));
     }

@@ -1,17 +1,18 @@
-// From radiance to the screen: the scene is drawn into 16-bit floats with antialiasing, then exposed, balanced, toned
-// and encoded. A small copy of it says how bright it is.
+// From radiance to the screen: the scene is drawn into floats of 10 and 11 bits with antialiasing, then exposed,
+// balanced, toned and encoded. A small copy of it says how bright it is.
 import * as THREE from "three";
-import type { Home } from "./document.js";
+import type { Home, ToneName } from "./document.js";
 import { falseColour, type Scale } from "./false_colour.js";
 import { drawInto } from "./light_sum.js";
 import { kReadoutGlsl, readoutAt } from "./readout.js";
 import type { Uniforms } from "./surfaces.js";
-import { exposureFromEv100, kToneGlsl, kToneNumbers } from "./tone.js";
+import { exposureFromEv100, kDitherGlsl, kToneGlsl, kToneNumbers } from "./tone.js";
 import { kMostStored, kUnit } from "./units.js";
 
 const kMeterWidth = 48;
 const kMeterHeight = 27;
-const kMostExposed = 16; // AgX is white from there on
+// A channel is all but white from there on: the more it were, the less smooth the edges of what is bright.
+const kMostExposed: Readonly<Record<ToneName, number>> = { neutral: 4, agx: 16, filmic: 6, clip: 2 };
 const kRampColours = 256;
 
 const kVertex = `
@@ -34,8 +35,7 @@ const kFragment = `
   in vec2 vUv;
   out vec4 outColor;
   ${kToneGlsl}
-  // Hides the bands of 8 bits: interleaved gradient noise (Jimenez 2014).
-  float dither(vec2 p) { return fract(52.9829189 * fract(dot(floor(p), vec2(0.06711056, 0.00583715)))); }
+  ${kDitherGlsl}
   void main() {
     vec3 image = texture(uImage, vUv).rgb * ${kUnit.toFixed(1)};
     if (uLux) {
@@ -107,8 +107,10 @@ export class Display {
     private readonly home: Home,
     samples: number,
   ) {
+    // Half of what 16-bit floats ask of the memory, where the chip has them; finish() hides their steps.
+    const short = renderer.extensions.has("EXT_color_buffer_float");
     this.image = new THREE.WebGLRenderTarget(1, 1, {
-      type: THREE.HalfFloatType,
+      ...(short ? { format: THREE.RGBFormat, type: THREE.UnsignedInt101111Type } : { type: THREE.HalfFloatType }),
       samples,
       resolveDepthBuffer: false, // nothing reads it
     });
@@ -152,7 +154,7 @@ export class Display {
 
   draw(scene: THREE.Scene, camera: THREE.Camera): void {
     const exposure = exposureFromEv100(this.ev100Now) * Math.max(...this.home.display.whiteGains);
-    this.uniforms.uMostRadiance!.value = Math.min(kMostExposed / exposure, kMostStored * kUnit);
+    this.uniforms.uMostRadiance!.value = Math.min(kMostExposed[this.home.display.tone] / exposure, kMostStored * kUnit);
     drawInto(this.renderer, this.image, scene, camera);
     this.uniforms.uMostRadiance!.value = kMostStored * kUnit;
     drawInto(this.renderer, null, this.show, this.camera);

@@ -29,42 +29,52 @@ export class Headset {
     this.marker.visible = false;
   }
 
-  // Ends when the wearer ends it.
-  async enter(frame: (nowMs: number) => void, ended: () => void): Promise<void> {
-    const { renderer, scene, display } = this.stage;
+  // Once the headset has agreed, pictures are `frame`'s and the headset's until the wearer ends it: then `ended`.
+  async enter(agreed: () => void, frame: (nowMs: number) => void, ended: () => void): Promise<void> {
+    const { renderer, scene } = this.stage;
     const session = await navigator.xr!.requestSession("immersive-vr", { optionalFeatures: ["local-floor"] });
-    renderer.xr.enabled = true;
-    renderer.xr.setReferenceSpaceType("local-floor");
+    agreed();
     const [x, y, z] = this.mover.eye.position;
     this.rig.position.set(x, y - kEyeHeightM, z);
     this.rig.rotation.y = (this.mover.eye.yawDeg * Math.PI) / 180;
-    display.uniforms.uEncode!.value = true;
-    scene.matrixWorldAutoUpdate = true;
-    scene.add(this.rig, this.marker);
     for (const i of [0, 1]) {
       const controller = renderer.xr.getController(i);
-      controller.addEventListener("selectend", () => this.jump());
+      controller.addEventListener("selectend", this.jump);
       this.rig.add(controller);
     }
-    session.addEventListener("end", () => {
-      renderer.xr.enabled = false;
+    renderer.xr.setReferenceSpaceType("local-floor");
+    this.present(true);
+    const leave = () => {
       renderer.setAnimationLoop(null);
-      display.uniforms.uEncode!.value = false;
-      scene.matrixWorldAutoUpdate = false;
-      scene.remove(this.rig, this.marker);
-      const { x: endX, y: endY, z: endZ } = this.rig.position;
-      this.mover.stand({ ...this.mover.eye, position: [endX, endY + kEyeHeightM, endZ] });
+      for (const i of [0, 1]) renderer.xr.getController(i).removeEventListener("selectend", this.jump);
+      this.present(false);
+      this.follow();
       ended();
-    });
-    await renderer.xr.setSession(session);
+    };
+    try {
+      await renderer.xr.setSession(session);
+    } catch (error) {
+      await session.end().catch(() => undefined);
+      leave();
+      throw error;
+    }
+    session.addEventListener("end", leave); // after the renderer's own listener
     renderer.setAnimationLoop(nowMs => {
       const eyes = renderer.getRenderTarget(); // of the headset
       frame(nowMs);
+      this.stage.reflect();
       this.aim();
       renderer.setRenderTarget(eyes);
       renderer.clear();
       renderer.render(scene, this.camera);
     });
+  }
+
+  private present(on: boolean): void {
+    const { renderer, scene, display } = this.stage;
+    renderer.xr.enabled = display.uniforms.uEncode!.value = scene.matrixWorldAutoUpdate = on;
+    if (on) scene.add(this.rig, this.marker);
+    else scene.remove(this.rig, this.marker);
   }
 
   // The place on a floor that the first controller points at.
@@ -84,7 +94,16 @@ export class Headset {
     if (this.target) this.marker.position.set(this.target[0], this.target[1] + 0.01, this.target[2]);
   }
 
-  private jump(): void {
-    if (this.target) this.rig.position.set(...this.target);
+  private readonly jump = (): void => {
+    if (!this.target) return;
+    this.rig.position.set(...this.target);
+    this.follow();
+    this.stage.setEye(this.mover.eye); // reflections are those of the room
+  };
+
+  // The eye of the page stands where the wearer does.
+  private follow(): void {
+    const { x, y, z } = this.rig.position;
+    this.mover.stand({ ...this.mover.eye, position: [x, y + kEyeHeightM, z] });
   }
 }

@@ -156,12 +156,16 @@ export class Stage {
     this.due = true;
   }
 
+  // Does a piece of what reflections need after a change.
+  reflect(): void {
+    if (this.scale !== null || !this.probe.busy || !this.factors) return;
+    this.probe.work();
+    if (!this.probe.busy) this.due = true;
+  }
+
   // Draws if there is something new to see. `seconds` since the last call; true if it drew.
   frame(nowMs: number, seconds: number): boolean {
-    if (this.scale === null && this.probe.busy && this.factors) {
-      this.probe.work();
-      if (!this.probe.busy) this.due = true;
-    }
+    this.reflect();
     this.adapt(seconds);
     const drawn = this.due;
     if (drawn) this.draw();

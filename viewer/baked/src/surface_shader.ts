@@ -1,6 +1,6 @@
 // How surfaces look: glTF's metallic-roughness under the irradiance of the atlas and the reflections of a probe. The
 // diffuse base keeps what the specular lobe leaves, as in src/trace/bsdf.h.
-import { kToneGlsl } from "./tone.js";
+import { kDitherGlsl, kToneGlsl } from "./tone.js";
 import { kMostStored, kUnit } from "./units.js";
 
 // What ends every surface: radiance in cd/m², or in false colours lux, as the target wants it.
@@ -11,12 +11,14 @@ export const kFinishGlsl = `
   uniform vec2 uGrade;
   uniform vec3 uExposure; // with the gains of the white balance
   uniform float uMostRadiance; // cd/m2; lamps are no brighter, so that their edges are smooth
+  ${kDitherGlsl}
   ${kToneGlsl}
+  const vec3 kStep = vec3(1.0, 1.0, 2.0) / 64.0; // floats of 11, 11 and 10 bits
   vec3 finish(vec3 radiance, vec3 lux) {
     float amount = dot(lux, vec3(0.2126, 0.7152, 0.0722)) / ${kUnit.toFixed(1)};
     if (uLux) return vec3(min(amount, ${kMostStored.toFixed(1)}));
     if (uEncode) return srgbEncode(toneCurve(radiance * uExposure, uTone, uGrade));
-    return min(radiance, uMostRadiance) / ${kUnit.toFixed(1)};
+    return min(radiance, uMostRadiance) * (1.0 + (dither(gl_FragCoord.yx) - 0.5) * kStep) / ${kUnit.toFixed(1)};
   }`;
 
 export const kSurfaceVertex = `
@@ -34,18 +36,28 @@ export const kSurfaceVertex = `
     out vec4 vColor;
   #endif
   uniform mat4 viewMatrix, projectionMatrix;
-  uniform sampler2D uLight;
+  uniform sampler2D uLight, uSurfaces;
   out vec3 vPosition, vNormal;
   centroid out vec2 vLightUv;
   out vec3 vLight;
-  flat out ivec2 vTag; // material, whether light is that of the vertices
+  flat out int vLit; // above zero: light is that of the vertices
+  // The material: fewer vertices than pixels ask for it.
+  flat out vec4 vBase; // alpha: 1 - share that passes a pane
+  flat out vec4 vEmission; // cd/m2; alpha: cut-off of the mask
+  flat out vec4 vGloss; // roughness, metallic, transmission, packed image
+  flat out vec4 vF0; // of a dielectric; alpha: f90
   void main() {
     vPosition = position;
     vNormal = normal;
     vLightUv = lightUv;
-    vTag = ivec2(tag);
+    int material = int(tag.x);
+    vBase = texelFetch(uSurfaces, ivec2(0, material), 0);
+    vEmission = texelFetch(uSurfaces, ivec2(1, material), 0);
+    vGloss = texelFetch(uSurfaces, ivec2(2, material), 0);
+    vF0 = texelFetch(uSurfaces, ivec2(3, material), 0);
+    vLit = int(tag.y);
     vLight = vec3(0.0);
-    if (vTag.y > 0) {
+    if (vLit > 0) {
       ivec2 size = textureSize(uLight, 0);
       vLight = texelFetch(uLight, min(ivec2(lightUv * vec2(size)), size - 1), 0).rgb;
     }
@@ -66,7 +78,7 @@ export const kSurfaceFragment = `
   precision highp sampler2D;
   #define texture2D texture
   #define texture2DGradEXT textureGrad
-  uniform sampler2D uLight, uSurfaces, uProbe;
+  uniform sampler2D uLight, uProbe;
   uniform vec3 cameraPosition;
   uniform bool uReflect; // false where the probe itself is made
   uniform vec3 uProbeAt, uRoomLow, uRoomHigh;
@@ -88,7 +100,8 @@ export const kSurfaceFragment = `
   #endif
   in vec3 vPosition, vNormal, vLight;
   centroid in vec2 vLightUv;
-  flat in ivec2 vTag;
+  flat in int vLit;
+  flat in vec4 vBase, vEmission, vGloss, vF0;
   #ifdef HAS_UV
     in vec2 vUv;
   #endif
@@ -159,10 +172,7 @@ export const kSurfaceFragment = `
   }
 
   void main() {
-    vec4 base = texelFetch(uSurfaces, ivec2(0, vTag.x), 0); // alpha: 1 - share that passes a pane
-    vec4 emission = texelFetch(uSurfaces, ivec2(1, vTag.x), 0); // cd/m2; alpha: cut-off
-    vec4 gloss = texelFetch(uSurfaces, ivec2(2, vTag.x), 0); // roughness, metallic, transmission, packed image
-    vec4 f0 = texelFetch(uSurfaces, ivec2(3, vTag.x), 0); // of a dielectric; alpha: f90
+    vec4 base = vBase, emission = vEmission, gloss = vGloss;
     #ifdef HAS_BASE
       base *= texture(uBase, vUv);
     #endif
@@ -181,13 +191,13 @@ export const kSurfaceFragment = `
     #ifdef HAS_EMISSION
       emission.rgb *= texture(uEmission, vUv).rgb;
     #endif
-    vec3 lux = (vTag.y > 0 ? vLight : texture(uLight, vLightUv).rgb) * ${kUnit.toFixed(1)};
+    vec3 lux = (vLit > 0 ? vLight : texture(uLight, vLightUv).rgb) * ${kUnit.toFixed(1)};
     vec3 v = normalize(cameraPosition - vPosition);
     vec3 n = shadingNormal();
     if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
     float roughness = clamp(gloss.x, 0.045, 1.0);
     vec2 terms = specularTerms(clamp(dot(n, v), 0.0, 1.0), roughness);
-    vec3 specular = mix(f0.rgb, base.rgb, gloss.y) * terms.x + mix(f0.a, 1.0, gloss.y) * terms.y;
+    vec3 specular = mix(vF0.rgb, base.rgb, gloss.y) * terms.x + mix(vF0.a, 1.0, gloss.y) * terms.y;
     float kept = 1.0 - min(1.0, max(specular.r, max(specular.g, specular.b)));
     vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * lux / kPi;
     vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, lux) : vec3(0.0);

@@ -8,6 +8,10 @@ export const kToneNumbers: Readonly<Record<ToneName, number>> = { neutral: 0, ag
 // Saturation-based (ISO 12232): 1.2 * 2^EV100 becomes 1.
 export const exposureFromEv100 = (ev100: number): number => 1 / (1.2 * 2 ** ev100);
 
+// Hides the steps of a coarse format: interleaved gradient noise (Jimenez 2014).
+export const kDitherGlsl = `
+  float dither(vec2 p) { return fract(52.9829189 * fract(dot(floor(p), vec2(0.06711056, 0.00583715)))); }`;
+
 export const kToneGlsl = `
   vec3 toneNeutral(vec3 color) {
     const float start = 0.8 - 0.04, desaturation = 0.15;
