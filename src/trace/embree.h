@@ -9,6 +9,14 @@
 
 namespace roomlight {
 
+// Rays must not slip through edges that triangles share. On arm64 Embree divides by estimates so coarse that some do,
+// unless its slower, watertight test (Woop et al. 2013) is asked for.
+#if defined(__aarch64__)
+constexpr RTCSceneFlags kTight = RTC_SCENE_FLAG_ROBUST;
+#else
+constexpr RTCSceneFlags kTight = RTC_SCENE_FLAG_NONE;
+#endif
+
 // What goes along with rays: made once for many of them, by one thread. A filter function finds it by queryOf().
 struct RayQuery {
   RayQuery() noexcept;

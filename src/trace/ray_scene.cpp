@@ -210,6 +210,7 @@ void RayScene::State::build() {
       RTCScene& shared = meshScenes[meshIndex];
       if (!shared) {
         shared = rtcNewScene(device);
+        rtcSetSceneFlags(shared, kTight);
         RTCGeometry triangles = makeGeometry(instance.mesh, Affine{});
         rtcAttachGeometryByID(shared, triangles, 0);
         rtcReleaseGeometry(triangles);
@@ -228,7 +229,7 @@ void RayScene::State::build() {
 
 RTCScene RayScene::State::newScene() const {
   RTCScene made = rtcNewScene(device);
-  rtcSetSceneFlags(made, kFilteredByQueries);
+  rtcSetSceneFlags(made, kFilteredByQueries | kTight);
   return made;
 }
 
@@ -253,7 +254,7 @@ void RayScene::State::commitTop() {
 void RayScene::State::part() {
   still = top;
   moving = newScene(), top = newScene();
-  rtcSetSceneFlags(moving, kFilteredByQueries | RTC_SCENE_FLAG_DYNAMIC);
+  rtcSetSceneFlags(moving, kFilteredByQueries | kTight | RTC_SCENE_FLAG_DYNAMIC);
   rtcSetSceneBuildQuality(moving, RTC_BUILD_QUALITY_LOW);
   gone.assign(scene->instances.size(), 0);
   movingMesh.assign(scene->instances.size(), -1);
