@@ -95,7 +95,10 @@ Result<BakePlan> planBake(const BakeOptions& o) {
   }
   if (const Status s = checkDistinct({o.scene, o.lighting, o.output, o.stats, o.writeLighting}); !s)
     return Error{s.error()};
-  if (lowerExtension(o.output) == ".glb") return plan;
+  if (lowerExtension(o.output) == ".glb") {
+    plan.settings.glb.lightMap = true;
+    return plan;
+  }
   plan.settings.glb.compressed = true;
   Result<std::string> page = readTextFile(pageFolder("baked", "dist-baked") / "index.html");
   if (!page) return Error{page.error() + "; build the page with scripts/build"};

@@ -9,6 +9,7 @@
 
 #include "bake/glb_materials.h"
 #include "bake/glb_writer.h"
+#include "bake/light_map.h"
 #include "bake/light_texels.h"
 #include "photometry/colour_temperature.h"
 
@@ -41,18 +42,42 @@ std::array<int8_t, 4> packedNormal(Vec3 n) {
 
 uint8_t packedByte(float f) { return static_cast<uint8_t>(std::lround(std::clamp(f, 0.0f, 1.0f) * 255)); }
 
+// Of a corner of a triangle: its place in PlacedChart::vertices, and the one of them whose texel it is lit by.
+using Corner = std::pair<uint32_t, uint32_t>;
+
 class BatchMaker {
  public:
-  BatchMaker(const Scene& scene, const Atlas& atlas) : scene_(scene), atlas_(atlas) {}
+  // `light`: on the atlas. Given, triangles that would be lit by vertices have one texel each, as programs that know
+  // light maps alone would else read what lies between the texels of corners.
+  BatchMaker(const Scene& scene, const Atlas& atlas, const Image* light)
+      : scene_(scene), atlas_(atlas), light_(light) {}
 
   void add(const PlacedChart& placed, Batch& batch) const {
+    const bool facets = light_ && placed.chart.byVertices;
+    std::vector<Corner> corners;
+    std::map<Corner, uint32_t> known;
+    const auto first = static_cast<uint32_t>(batch.positions.size());
+    const auto use = [&](const Corner& corner) {
+      const auto [at, isNew] = known.try_emplace(corner, static_cast<uint32_t>(corners.size()));
+      if (isNew) corners.push_back(corner);
+      batch.indices.push_back(first + at->second);
+    };
+    for (size_t t = 0; t + 2 < placed.indices.size(); t += 3) {
+      const uint32_t* triangle = &placed.indices[t];
+      const uint32_t middle = facets ? middlingOf(placed, triangle) : 0;
+      for (int k = 0; k < 3; ++k) use({triangle[k], facets ? middle : triangle[k]});
+    }
+    addVertices(placed, corners, placed.chart.byVertices && !facets, batch);
+  }
+
+ private:
+  void addVertices(const PlacedChart& placed, const std::vector<Corner>& corners, bool byVertices, Batch& batch) const {
     const Instance& instance = scene_.instances[placed.chart.instance];
     const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
     const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
     const TextureRef* coordinates = coordinatesOf(material);
-    const auto first = static_cast<uint32_t>(batch.positions.size());
     const std::vector<Vec3> flat = mesh.normals.empty() ? faceNormals(placed, mesh, instance) : std::vector<Vec3>();
-    for (size_t i = 0; i < placed.vertices.size(); ++i) {
+    for (const auto& [i, litBy] : corners) {
       const uint32_t v = placed.vertices[i].vertex;
       batch.positions.push_back(instance.worldFromObject.point(mesh.positions[v]));
       Vec3 n = flat.empty() ? instance.worldFromObject.normal(mesh.normals[v]) : flat[i];
@@ -61,18 +86,25 @@ class BatchMaker {
       batch.normals.push_back(packedNormal(length(n) > 0 ? normalize(n) : placed.chart.normal));
       const std::vector<Vec2>* uv = coordinates ? &mesh.uv[coordinates->uvSet] : nullptr;
       batch.uv.push_back(uv && v < uv->size() ? transformUv(*coordinates, (*uv)[v]) : Vec2{});
-      batch.atlas.push_back(onAtlas(placed.vertices[i].texel));
-      const uint8_t lit = placed.chart.byVertices ? 1 : 0;
-      batch.vertexLit.push_back({lit, 0, 0, 0});
+      batch.atlas.push_back(onAtlas(placed.vertices[litBy].texel));
+      batch.vertexLit.push_back({static_cast<uint8_t>(byVertices ? 1 : 0), 0, 0, 0});
       const Vec3 c = v < mesh.colors.size() ? mesh.colors[v] : Vec3(1);
       const float alpha = v < mesh.colorAlphas.size() ? mesh.colorAlphas[v] : 1;
       batch.colors.push_back({packedByte(c.x), packedByte(c.y), packedByte(c.z), packedByte(alpha)});
       batch.coloured |= !mesh.colors.empty();
     }
-    for (const uint32_t i : placed.indices) batch.indices.push_back(first + i);
   }
-
- private:
+  // Of the corners of a triangle the one with the middling light.
+  uint32_t middlingOf(const PlacedChart& placed, const uint32_t* triangle) const {
+    const auto lux = [&](uint32_t i) {
+      const Vec2 texel = placed.vertices[i].texel;
+      return luminance(light_->at(static_cast<int>(texel.x), static_cast<int>(texel.y)));
+    };
+    std::array<uint32_t, 3> by{triangle[0], triangle[1], triangle[2]};
+    std::sort(by.begin(), by.end(),
+              [&](uint32_t a, uint32_t b) { return std::pair(lux(a), a) < std::pair(lux(b), b); });
+    return by[1];
+  }
   // Where a mesh has no normals: means over the chart's faces, which are nearly flat.
   static std::vector<Vec3> faceNormals(const PlacedChart& placed, const Mesh& mesh, const Instance& instance) {
     std::vector<Vec3> sums(placed.vertices.size());
@@ -94,6 +126,7 @@ class BatchMaker {
 
   const Scene& scene_;
   const Atlas& atlas_;
+  const Image* const light_;
 };
 
 // Triangles in an order that is quick to draw and small once compressed, vertices as they are used.
@@ -159,10 +192,27 @@ Grid gridOf(const Batches& batches) {
   return {bounds.lo, stepM > kLongestStepM ? 0 : stepM};
 }
 
-// Bytes of its textures.
-Result<size_t> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
-                           const GlbSettings& settings) {
-  const BatchMaker maker(scene, atlas);
+void addNode(GlbWriter& glb, const Json& primitives, const Grid& grid) {
+  glb.json["meshes"] = Json::array({{{"name", "home"}, {"primitives", primitives}}});
+  Json node = {{"name", "home"}, {"mesh", 0}};
+  if (grid.stepM > 0) {
+    node["translation"] = {grid.origin.x, grid.origin.y, grid.origin.z};
+    node["scale"] = {grid.stepM, grid.stepM, grid.stepM};
+  }
+  glb.json["nodes"] = Json::array({node});
+  glb.json["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
+  glb.json["scene"] = 0;
+}
+
+// What is known of the textures once they are written.
+struct Textures {
+  size_t bytes = 0;
+  Json lightMap;  // null: there is none
+};
+
+Result<Textures> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
+                             const GlbSettings& settings, const Image* light, float ev100) {
+  const BatchMaker maker(scene, atlas, light);
   constexpr int kDark = -2;  // the side that does not shine
   Batches batches;
   for (const PlacedChart& placed : atlas.charts) {
@@ -176,6 +226,13 @@ Result<size_t> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atla
   Grid grid;
   if (settings.compressed) grid = gridOf(batches);
   GlbMaterials materials(scene, glb, settings);
+  Textures textures;
+  if (light) {
+    const LightMap map = lightMapOf(*light, ev100);
+    const Result<int> number = materials.useLightMap(map, exposureFromEv100(ev100));
+    if (!number) return Error{number.error()};
+    textures.lightMap = {{"texture", number.value()}, {"luxAtOne", map.luxAtOne}};
+  }
   Json primitives = Json::array();
   for (auto& [key, batch] : batches) {
     const Result<int> material = materials.add(key.first, key.second, key.second != kDark);
@@ -183,27 +240,12 @@ Result<size_t> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atla
     primitives.push_back(primitiveOf(glb, batch, grid, materials.textured(key.first), material.value()));
   }
   materials.finish();
-  glb.json["meshes"] = Json::array({{{"name", "home"}, {"primitives", primitives}}});
-  Json node = {{"name", "home"}, {"mesh", 0}};
-  if (grid.stepM > 0) {
-    node["translation"] = {grid.origin.x, grid.origin.y, grid.origin.z};
-    node["scale"] = {grid.stepM, grid.stepM, grid.stepM};
-  }
-  glb.json["nodes"] = Json::array({node});
-  glb.json["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
-  glb.json["scene"] = 0;
-  return materials.textureBytes();
+  textures.bytes = materials.textureBytes();
+  addNode(glb, primitives, grid);
+  return textures;
 }
 
 constexpr int kTile = 32;
-
-// The light of a layer on the atlas, texels beside charts too.
-Image onAtlas(const Atlas& atlas, const std::vector<Vec3>& lux) {
-  Image light(atlas.width, atlas.height);
-  for (size_t i = 0; i < atlas.texels.size(); ++i) light.pixels[atlas.texels[i]] = lux[i];
-  for (const auto& [texel, element] : atlas.padding) light.pixels[texel] = lux[element];
-  return light;
-}
 
 Json vectorJson(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -258,30 +300,34 @@ Json camerasJson(const std::vector<Camera>& cameras) {
 Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
                   const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings) {
   GlbWriter glb(settings.compressed);
-  const Result<size_t> textureBytes = addGeometry(glb, scene, atlas, lamps, settings);
-  if (!textureBytes) return Error{textureBytes.error()};
+  Image light;
+  if (settings.lightMap) light = lightAtFirst(atlas, lamps, daylight);
+  const Result<Textures> textures =
+      addGeometry(glb, scene, atlas, lamps, settings, settings.lightMap ? &light : nullptr, shown.ev100);
+  if (!textures) return Error{textures.error()};
   Json layers = Json::array();
   Glb out;
-  out.textureBytes = textureBytes.value();
+  out.textureBytes = textures.value().bytes;
   for (const auto* group : {&lamps.layers, &daylight}) {
     for (const BakedLayer& layer : *group)
       layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux), out.lightBytes));
   }
   const std::vector<Camera> cameras = camerasInside(scene);
-  Json light = {{"version", 1},
-                {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
-                {"layers", layers},
-                {"rooms", roomsJson(scene)},
-                {"cameras", camerasJson(cameras)},
-                {"camera", cameraInUse(scene, cameras)},
-                {"display",
-                 {{"ev100", shown.ev100},
-                  {"tone", toneCurveName(shown.tone.curve)},
-                  {"contrast", shown.tone.contrast},
-                  {"saturation", shown.tone.saturation},
-                  {"whiteGains", vectorJson(shown.whiteGains)}}}};
-  if (!daylight.empty()) light["hour"] = daylight.front().hour;
-  glb.json["extensions"]["ROOMLIGHT_light_layers"] = light;
+  Json extension = {{"version", 1},
+                    {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
+                    {"layers", layers},
+                    {"rooms", roomsJson(scene)},
+                    {"cameras", camerasJson(cameras)},
+                    {"camera", cameraInUse(scene, cameras)},
+                    {"display",
+                     {{"ev100", shown.ev100},
+                      {"tone", toneCurveName(shown.tone.curve)},
+                      {"contrast", shown.tone.contrast},
+                      {"saturation", shown.tone.saturation},
+                      {"whiteGains", vectorJson(shown.whiteGains)}}}};
+  if (!daylight.empty()) extension["hour"] = daylight.front().hour;
+  if (settings.lightMap) extension["lightMap"] = textures.value().lightMap;
+  glb.json["extensions"]["ROOMLIGHT_light_layers"] = extension;
   glb.json["extensionsUsed"].push_back("ROOMLIGHT_light_layers");
   if (settings.compressed) {
     for (const char* list : {"extensionsUsed", "extensionsRequired"})

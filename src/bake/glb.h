@@ -14,6 +14,7 @@ struct GlbSettings {
   int mostTexturePixels = 1024;  // an edge; larger textures are scaled down
   float textureQuality = 80;     // of WebP
   bool compressed = false;       // geometry by EXT_meshopt_compression, which not every program reads
+  bool lightMap = false;         // light as it is at first in a texture too, for programs that know no layers
 };
 
 // What a picture of the home's own light from its camera is exposed and balanced by.

@@ -9,7 +9,7 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr int kClamp = 33071, kMirror = 33648, kRepeat = 10497;  // as glTF numbers them
+constexpr int kClamp = 33071, kMirror = 33648, kRepeat = 10497, kLinear = 9729;  // as glTF numbers them
 
 int wrapOf(Wrap wrap) { return wrap == Wrap::ClampToEdge ? kClamp : wrap == Wrap::MirroredRepeat ? kMirror : kRepeat; }
 
@@ -72,18 +72,31 @@ bool GlbMaterials::textured(int material) const {
 Result<int> GlbMaterials::texture(int number) {
   if (const auto known = textureOf_.find(number); known != textureOf_.end()) return known->second;
   const Texture small = scaledDown(scene_.textures[static_cast<size_t>(number)], settings_.mostTexturePixels);
-  const Result<std::string> webp = encodeWebp(bytesOf(small, opaque(small) ? 3 : 4), settings_.textureQuality);
-  if (!webp) return Error{webp.error()};
   const Json sampler = {{"wrapS", wrapOf(small.wrapU)}, {"wrapT", wrapOf(small.wrapV)}};
-  auto place = std::find(samplers_.begin(), samplers_.end(), sampler);
+  const Result<int> out = addTexture(bytesOf(small, opaque(small) ? 3 : 4), settings_.textureQuality, sampler);
+  if (out) textureOf_[number] = out.value();
+  return out;
+}
+
+Result<int> GlbMaterials::addTexture(const ByteImage& picture, float quality, const Json& sampler) {
+  const Result<std::string> webp = encodeWebp(picture, quality);
+  if (!webp) return Error{webp.error()};
+  const auto place = std::find(samplers_.begin(), samplers_.end(), sampler);
   const auto samplerNumber = static_cast<int>(place - samplers_.begin());
   if (place == samplers_.end()) samplers_.push_back(sampler);
   const auto image = static_cast<int>(images_.size());
   bytes_ += webp.value().size();
   images_.push_back({{"bufferView", glb_.addView(webp.value())}, {"mimeType", "image/webp"}});
-  const auto out = static_cast<int>(textures_.size());
   textures_.push_back({{"sampler", samplerNumber}, {"extensions", {{"EXT_texture_webp", {{"source", image}}}}}});
-  return textureOf_[number] = out;
+  return static_cast<int>(textures_.size()) - 1;
+}
+
+Result<int> GlbMaterials::useLightMap(const LightMap& map, float exposure) {
+  // Without smaller copies of it, which would mix charts.
+  const Json sampler = {{"wrapS", kClamp}, {"wrapT", kClamp}, {"minFilter", kLinear}, {"magFilter", kLinear}};
+  const Result<int> number = addTexture(map.image, kLossless, sampler);
+  if (number) lightMap_ = {{"index", number.value()}, {"texCoord", 1}, {"intensity", map.luxAtOne * exposure}};
+  return number;
 }
 
 // Those that lie where the first does: there is one set of coordinates.
@@ -139,6 +152,7 @@ Result<int> GlbMaterials::add(int number, int layer, bool shines) {
   if (m.specular != 1 || !(m.specularColor == Vec3(1)))
     json["extensions"]["KHR_materials_specular"] = {{"specularFactor", m.specular},
                                                     {"specularColorFactor", colorJson(m.specularColor)}};
+  if (!lightMap_.is_null()) json["extensions"]["MOZ_lightmap"] = lightMap_;
   materials_.push_back(json);
   return static_cast<int>(materials_.size()) - 1;
 }
@@ -146,7 +160,8 @@ Result<int> GlbMaterials::add(int number, int layer, bool shines) {
 void GlbMaterials::finish() {
   // Normals are bytes.
   Json used = Json::array({"KHR_mesh_quantization"}), required = used;
-  for (const char* name : {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular"}) {
+  for (const char* name :
+       {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular", "MOZ_lightmap"}) {
     if (std::any_of(materials_.begin(), materials_.end(),
                     [&](const Json& m) { return m.contains("extensions") && m["extensions"].contains(name); }))
       used.push_back(name);

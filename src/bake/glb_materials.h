@@ -5,6 +5,7 @@
 
 #include "bake/glb.h"
 #include "bake/glb_writer.h"
+#include "bake/light_map.h"
 
 namespace roomlight::bake {
 
@@ -20,6 +21,9 @@ class GlbMaterials {
   // The number in the file of a material of the scene, shining or not, whose emission belongs to a layer (-1: to none).
   // Errors: a texture that cannot be written.
   Result<int> add(int material, int layer, bool shines);
+  // For all materials added later. `exposure`: what luminance is multiplied by, 1 being white. The texture's number.
+  // Errors: it cannot be written.
+  Result<int> useLightMap(const LightMap& map, float exposure);
   // Whether its coordinates are needed.
   bool textured(int material) const;
   // Writes what was added into the file.
@@ -28,6 +32,7 @@ class GlbMaterials {
 
  private:
   Result<int> texture(int texture);
+  Result<int> addTexture(const ByteImage& image, float quality, const Json& sampler);
   Status addTextures(const Material& m, Json& json, Json& pbr);
   void addTransparency(const Material& m, Json& json, Json& pbr);
 
@@ -35,6 +40,7 @@ class GlbMaterials {
   GlbWriter& glb_;
   const GlbSettings& settings_;
   Json materials_ = Json::array(), textures_ = Json::array(), images_ = Json::array(), samplers_ = Json::array();
+  Json lightMap_;  // what materials say of it; null: nothing
   size_t bytes_ = 0;  // of textures
   std::map<int, int> textureOf_;  // of the scene's
 };

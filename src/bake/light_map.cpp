@@ -1,0 +1,47 @@
+#include "bake/light_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/image_io.h"
+#include "base/tone.h"
+#include "base/tone_curves.h"
+
+namespace roomlight::bake {
+
+Image onAtlas(const Atlas& atlas, const std::vector<Vec3>& lux) {
+  Image light(atlas.width, atlas.height);
+  for (size_t i = 0; i < atlas.texels.size(); ++i) light.pixels[atlas.texels[i]] = lux[i];
+  for (const auto& [texel, element] : atlas.padding) light.pixels[texel] = lux[element];
+  return light;
+}
+
+Image lightAtFirst(const Atlas& atlas, const LampLayers& lamps, const std::vector<BakedLayer>& daylight) {
+  std::vector<Vec3> sum(atlas.elements.size());
+  const auto add = [&](const BakedLayer& layer) {
+    for (size_t i = 0; layer.on && i < sum.size(); ++i) sum[i] += layer.lux[i];
+  };
+  for (const BakedLayer& layer : lamps.layers) add(layer);
+  for (const BakedLayer& layer : daylight) {
+    if (layer.hour == daylight.front().hour) add(layer);
+  }
+  return onAtlas(atlas, sum);
+}
+
+LightMap lightMapOf(const Image& light, float ev100) {
+  constexpr float kTimesWhite = 4;
+  float most = 0;
+  for (const Vec3 lux : light.pixels) most = std::max(most, maxComponent(lux));
+  LightMap map;
+  // A white surface of E lux has E / π cd/m².
+  map.luxAtOne = std::max(std::min(most, kTimesWhite * kPi / exposureFromEv100(ev100)), 1e-6f);
+  Image encoded(light.width, light.height);
+  for (size_t i = 0; i < light.pixels.size(); ++i) {
+    const Vec3 v = min(max(light.pixels[i] / map.luxAtOne, Vec3(0)), Vec3(1));
+    encoded.pixels[i] = {srgbEncode(v.x), srgbEncode(v.y), srgbEncode(v.z)};
+  }
+  map.image = bytesOf(encoded);
+  return map;
+}
+
+}  // namespace roomlight::bake
