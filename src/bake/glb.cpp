@@ -204,6 +204,12 @@ void addNode(GlbWriter& glb, const Json& primitives, const Grid& grid) {
   glb.json["scene"] = 0;
 }
 
+// For the light map.
+struct AtFirst {
+  Image light;  // on the atlas
+  float ev100 = 0;
+};
+
 // What is known of the textures once they are written.
 struct Textures {
   size_t bytes = 0;
@@ -211,8 +217,8 @@ struct Textures {
 };
 
 Result<Textures> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
-                             const GlbSettings& settings, const Image* light, float ev100) {
-  const BatchMaker maker(scene, atlas, light);
+                             const GlbSettings& settings, const AtFirst* first) {
+  const BatchMaker maker(scene, atlas, first ? &first->light : nullptr);
   constexpr int kDark = -2;  // the side that does not shine
   Batches batches;
   for (const PlacedChart& placed : atlas.charts) {
@@ -227,9 +233,9 @@ Result<Textures> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& at
   if (settings.compressed) grid = gridOf(batches);
   GlbMaterials materials(scene, glb, settings);
   Textures textures;
-  if (light) {
-    const LightMap map = lightMapOf(*light, ev100);
-    const Result<int> number = materials.useLightMap(map, exposureFromEv100(ev100));
+  if (first) {
+    const LightMap map = lightMapOf(first->light, first->ev100);
+    const Result<int> number = materials.useLightMap(map, exposureFromEv100(first->ev100));
     if (!number) return Error{number.error()};
     textures.lightMap = {{"texture", number.value()}, {"luxAtOne", map.luxAtOne}};
   }
@@ -300,10 +306,10 @@ Json camerasJson(const std::vector<Camera>& cameras) {
 Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
                   const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings) {
   GlbWriter glb(settings.compressed);
-  Image light;
-  if (settings.lightMap) light = lightAtFirst(atlas, lamps, daylight);
+  AtFirst first;
+  if (settings.lightMap) first = {lightAtFirst(atlas, lamps, daylight), shown.ev100};
   const Result<Textures> textures =
-      addGeometry(glb, scene, atlas, lamps, settings, settings.lightMap ? &light : nullptr, shown.ev100);
+      addGeometry(glb, scene, atlas, lamps, settings, settings.lightMap ? &first : nullptr);
   if (!textures) return Error{textures.error()};
   Json layers = Json::array();
   Glb out;
