@@ -73,6 +73,7 @@ Result<LaidOut> layOut(Scene scene, const BakeSettings& settings, Stages& stages
 }
 
 constexpr double kBytesATexel = 4;         // of light, before it is compressed
+constexpr double kBytesOfLightMap = 2;     // of it, a texel
 constexpr double kBytesOfText = 4.0 / 3;  // a byte: base64
 
 size_t writtenSize(const BakeWish& wish, const std::string& glb) {
@@ -90,8 +91,9 @@ Result<FileParts> partsOf(const LaidOut& laid, const BakeWish& wish, const BakeS
   const double grows = wish.asText ? kBytesOfText : 1;
   const double size = static_cast<double>(writtenSize(wish, dark.value().bytes)),
                textures = grows * static_cast<double>(dark.value().textureBytes);
-  return FileParts{size - textures, textures,
-                   grows * kBytesATexel * static_cast<double>(layers * laid.atlas.elements.size())};
+  const double bytesATexel =
+      kBytesATexel * static_cast<double>(layers) + (settings.glb.lightMap ? kBytesOfLightMap : 0);
+  return FileParts{size - textures, textures, grows * bytesATexel * static_cast<double>(laid.atlas.elements.size())};
 }
 
 // With settings coarse enough for the budget.

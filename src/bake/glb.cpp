@@ -241,9 +241,11 @@ Result<Textures> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& at
   }
   Json primitives = Json::array();
   for (auto& [key, batch] : batches) {
-    const Result<int> material = materials.add(key.first, key.second, key.second != kDark);
+    const bool isOff = first && key.second >= 0 && !lamps.layers[static_cast<size_t>(key.second)].on;
+    const Result<int> material = materials.add(key.first, key.second, key.second != kDark && !isOff);
     if (!material) return Error{material.error()};
-    primitives.push_back(primitiveOf(glb, batch, grid, materials.textured(key.first), material.value()));
+    // Sets of coordinates are numbered from 0 (glTF 2.0, 3.7.2.1): some programs find the second by the first alone.
+    primitives.push_back(primitiveOf(glb, batch, grid, first || materials.textured(key.first), material.value()));
   }
   materials.finish();
   textures.bytes = materials.textureBytes();

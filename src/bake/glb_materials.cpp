@@ -9,6 +9,7 @@
 namespace roomlight::bake {
 namespace {
 
+constexpr float kNormalQuality = 92;  // of WebP
 constexpr int kClamp = 33071, kMirror = 33648, kRepeat = 10497, kLinear = 9729;  // as glTF numbers them
 
 int wrapOf(Wrap wrap) { return wrap == Wrap::ClampToEdge ? kClamp : wrap == Wrap::MirroredRepeat ? kMirror : kRepeat; }
@@ -59,7 +60,8 @@ Json colorJson(Vec3 c) { return {c.x, c.y, c.z}; }
 }  // namespace
 
 const TextureRef* coordinatesOf(const Material& m) {
-  for (const TextureRef* ref : {&m.baseColorTexture, &m.emissionTexture, &m.metallicRoughnessTexture}) {
+  for (const TextureRef* ref :
+       {&m.baseColorTexture, &m.emissionTexture, &m.metallicRoughnessTexture, &m.normalTexture}) {
     if (ref->texture >= 0) return ref;
   }
   return nullptr;
@@ -69,33 +71,40 @@ bool GlbMaterials::textured(int material) const {
   return coordinatesOf(scene_.materials[static_cast<size_t>(material)]) != nullptr;
 }
 
-Result<int> GlbMaterials::texture(int number) {
+Result<int> GlbMaterials::texture(int number, float quality) {
   if (const auto known = textureOf_.find(number); known != textureOf_.end()) return known->second;
   const Texture small = scaledDown(scene_.textures[static_cast<size_t>(number)], settings_.mostTexturePixels);
   const Json sampler = {{"wrapS", wrapOf(small.wrapU)}, {"wrapT", wrapOf(small.wrapV)}};
-  const Result<int> out = addTexture(bytesOf(small, opaque(small) ? 3 : 4), settings_.textureQuality, sampler);
-  if (out) textureOf_[number] = out.value();
-  return out;
+  const Result<std::string> webp = encodeWebp(bytesOf(small, opaque(small) ? 3 : 4), quality);
+  if (!webp) return Error{webp.error()};
+  return textureOf_[number] = addTexture(webp.value(), true, sampler);
 }
 
-Result<int> GlbMaterials::addTexture(const ByteImage& picture, float quality, const Json& sampler) {
-  const Result<std::string> webp = encodeWebp(picture, quality);
-  if (!webp) return Error{webp.error()};
+int GlbMaterials::addTexture(const std::string& picture, bool isWebp, const Json& sampler) {
   const auto place = std::find(samplers_.begin(), samplers_.end(), sampler);
   const auto samplerNumber = static_cast<int>(place - samplers_.begin());
   if (place == samplers_.end()) samplers_.push_back(sampler);
   const auto image = static_cast<int>(images_.size());
-  bytes_ += webp.value().size();
-  images_.push_back({{"bufferView", glb_.addView(webp.value())}, {"mimeType", "image/webp"}});
-  textures_.push_back({{"sampler", samplerNumber}, {"extensions", {{"EXT_texture_webp", {{"source", image}}}}}});
+  bytes_ += picture.size();
+  images_.push_back({{"bufferView", glb_.addView(picture)}, {"mimeType", isWebp ? "image/webp" : "image/png"}});
+  Json texture = {{"sampler", samplerNumber}};
+  if (isWebp) {
+    texture["extensions"]["EXT_texture_webp"]["source"] = image;
+  } else {
+    texture["source"] = image;
+  }
+  textures_.push_back(texture);
   return static_cast<int>(textures_.size()) - 1;
 }
 
+// As PNG, so that a home without other textures needs no extension.
 Result<int> GlbMaterials::useLightMap(const LightMap& map, float exposure) {
+  const Result<std::string> png = encodePng(map.image);
+  if (!png) return Error{png.error()};
   // Without smaller copies of it, which would mix charts.
   const Json sampler = {{"wrapS", kClamp}, {"wrapT", kClamp}, {"minFilter", kLinear}, {"magFilter", kLinear}};
-  const Result<int> number = addTexture(map.image, kLossless, sampler);
-  if (number) lightMap_ = {{"index", number.value()}, {"texCoord", 1}, {"intensity", map.luxAtOne * exposure}};
+  const int number = addTexture(png.value(), false, sampler);
+  lightMap_ = {{"index", number}, {"texCoord", 1}, {"intensity", map.luxAtOne * exposure}};
   return number;
 }
 
@@ -103,16 +112,20 @@ Result<int> GlbMaterials::useLightMap(const LightMap& map, float exposure) {
 Status GlbMaterials::addTextures(const Material& m, Json& json, Json& pbr) {
   const TextureRef* first = coordinatesOf(m);
   if (!first) return Ok{};
-  const auto add = [&](const TextureRef& ref, Json& into, const char* key) -> Status {
+  const auto add = [&](const TextureRef& ref, Json& into, const char* key, float quality) -> Status {
     if (ref.texture < 0 || !sameCoordinates(ref, *first)) return Ok{};
-    const Result<int> number = texture(ref.texture);
+    const Result<int> number = texture(ref.texture, quality);
     if (!number) return Error{number.error()};
     into[key] = {{"index", number.value()}};
     return Ok{};
   };
-  if (const Status s = add(m.baseColorTexture, pbr, "baseColorTexture"); !s) return s;
-  if (const Status s = add(m.metallicRoughnessTexture, pbr, "metallicRoughnessTexture"); !s) return s;
-  return add(m.emissionTexture, json, "emissiveTexture");
+  const float usual = settings_.textureQuality;
+  if (const Status s = add(m.baseColorTexture, pbr, "baseColorTexture", usual); !s) return s;
+  if (const Status s = add(m.metallicRoughnessTexture, pbr, "metallicRoughnessTexture", usual); !s) return s;
+  // Steps of directions are seen in what shines.
+  if (const Status s = add(m.normalTexture, json, "normalTexture", std::max(usual, kNormalQuality)); !s) return s;
+  if (json.contains("normalTexture")) json["normalTexture"]["scale"] = m.normalScale;
+  return add(m.emissionTexture, json, "emissiveTexture", usual);
 }
 
 // A pane or a sheet of glass lets through what is behind it and adds what it reflects.
@@ -167,7 +180,7 @@ void GlbMaterials::finish() {
       used.push_back(name);
   }
   glb_.json["materials"] = materials_;
-  if (!textures_.empty()) used.push_back("EXT_texture_webp"), required.push_back("EXT_texture_webp");
+  if (!textureOf_.empty()) used.push_back("EXT_texture_webp"), required.push_back("EXT_texture_webp");
   glb_.json["extensionsUsed"] = used, glb_.json["extensionsRequired"] = required;
   if (textures_.empty()) return;
   glb_.json["textures"] = textures_, glb_.json["images"] = images_, glb_.json["samplers"] = samplers_;

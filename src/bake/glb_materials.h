@@ -9,8 +9,8 @@
 
 namespace roomlight::bake {
 
-// The texture whose coordinates a material keeps: of its colour, else of what it emits, else of its roughness. Null:
-// it has none.
+// The texture whose coordinates a material keeps: of its colour, else of what it emits, else of its roughness, else of
+// its normals. Null: it has none.
 const TextureRef* coordinatesOf(const Material& material);
 
 class GlbMaterials {
@@ -31,8 +31,8 @@ class GlbMaterials {
   size_t textureBytes() const { return bytes_; }
 
  private:
-  Result<int> texture(int texture);
-  Result<int> addTexture(const ByteImage& image, float quality, const Json& sampler);
+  Result<int> texture(int texture, float quality);
+  int addTexture(const std::string& picture, bool isWebp, const Json& sampler);
   Status addTextures(const Material& m, Json& json, Json& pbr);
   void addTransparency(const Material& m, Json& json, Json& pbr);
 

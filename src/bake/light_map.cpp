@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/image_io.h"
 #include "base/tone.h"
 #include "base/tone_curves.h"
 
@@ -35,12 +34,14 @@ LightMap lightMapOf(const Image& light, float ev100) {
   LightMap map;
   // A white surface of E lux has E / π cd/m².
   map.luxAtOne = std::max(std::min(most, kTimesWhite * kPi / exposureFromEv100(ev100)), 1e-6f);
-  Image encoded(light.width, light.height);
+  map.image = ByteImage(light.width, light.height, 3);
   for (size_t i = 0; i < light.pixels.size(); ++i) {
-    const Vec3 v = min(max(light.pixels[i] / map.luxAtOne, Vec3(0)), Vec3(1));
-    encoded.pixels[i] = {srgbEncode(v.x), srgbEncode(v.y), srgbEncode(v.z)};
+    const Vec3 v = light.pixels[i] / map.luxAtOne;
+    const float channels[] = {v.x, v.y, v.z};
+    for (size_t c = 0; c < 3; ++c)
+      map.image.samples[3 * i + c] =
+          channels[c] > 0 ? static_cast<uint8_t>(std::lround(255 * srgbEncode(std::min(channels[c], 1.0f)))) : 0;
   }
-  map.image = bytesOf(encoded);
   return map;
 }
 

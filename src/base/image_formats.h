@@ -26,6 +26,7 @@ LayeredImage readLayers(const std::filesystem::path& file);
 
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata,
               std::span<const float> alpha);
+std::string encodePng(const ByteImage& image, const Metadata& metadata);
 void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp);
 void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp);

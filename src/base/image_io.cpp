@@ -162,6 +162,10 @@ Result<std::string> encodeJpeg(const Image& encoded, int quality) {
   return guarded<std::string>("JPEG", [&] { return formats::encodeJpeg(bytesOf(encoded), quality); });
 }
 
+Result<std::string> encodePng(const ByteImage& image) {
+  return guarded<std::string>("PNG", [&] { return formats::encodePng(image, {}); });
+}
+
 Result<std::string> encodeWebp(const ByteImage& image, float quality) {
   return guarded<std::string>("WebP", [&] { return formats::encodeWebp(image, quality); });
 }

@@ -37,7 +37,8 @@ Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size
 Result<std::string> encodeJpeg(const ByteImage& image, int quality);
 // The same of values already display-encoded (0..1, sRGB).
 Result<std::string> encodeJpeg(const Image& encoded, int quality);
-// As writeWebp() has it, as bytes.
+// As writePng() and writeWebp() have it, as bytes.
+Result<std::string> encodePng(const ByteImage& image);
 Result<std::string> encodeWebp(const ByteImage& image, float quality);
 Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 

@@ -39,7 +39,12 @@ void readBytes(png_structp png, png_bytep out, size_t n) {
   bytes->left -= n;
 }
 
-bool writeTo(std::FILE* out, const ByteImage& image, png_bytep* rows, png_textp texts, int textCount,
+void appendBytes(png_structp png, png_bytep bytes, size_t n) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), n);
+}
+void nothingToFlush(png_structp) {}
+
+bool writeTo(std::string& out, const ByteImage& image, png_bytep* rows, png_textp texts, int textCount,
              Failure& failure) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
@@ -47,7 +52,7 @@ bool writeTo(std::FILE* out, const ByteImage& image, png_bytep* rows, png_textp 
     png_destroy_write_struct(&png, info ? &info : nullptr);
     return false;
   }
-  png_init_io(png, out);
+  png_set_write_fn(png, &out, appendBytes, nothingToFlush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -123,7 +128,7 @@ void writePng(const std::filesystem::path& file, const Image& encoded, const Met
   formats::writePng(file, bytesOf(encoded, alpha), metadata);
 }
 
-void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata) {
+std::string encodePng(const ByteImage& image, const Metadata& metadata) {
   if (image.width < 1 || image.height < 1) throw std::runtime_error("a picture without pixels cannot be written");
   std::vector<png_bytep> rows;
   for (int y = 0; y < image.height; ++y) rows.push_back(const_cast<png_bytep>(image.row(y)));  // the library only reads
@@ -137,13 +142,20 @@ void writePng(const std::filesystem::path& file, const ByteImage& image, const M
     texts.push_back(text);
   }
   Failure failure;
+  std::string out;
+  if (!writeTo(out, image, rows.data(), texts.data(), static_cast<int>(texts.size()), failure))
+    throw std::runtime_error(std::string("cannot be written: ") + failure.message);
+  return out;
+}
+
+void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata) {
+  const std::string bytes = encodePng(image, metadata);
   std::FILE* out = std::fopen(file.c_str(), "wb");
   if (!out) throw std::runtime_error(std::string("cannot be written: ") + std::strerror(errno));
-  const bool written = writeTo(out, image, rows.data(), texts.data(), static_cast<int>(texts.size()), failure);
-  if (std::fclose(out) != 0 || !written) {
-    throw std::runtime_error(std::string("cannot be written: ") +
-                             (failure.message[0] ? failure.message : std::strerror(errno)));
-  }
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
+  const int why = errno;
+  if (std::fclose(out) != 0 || !written)
+    throw std::runtime_error(std::string("cannot be written: ") + std::strerror(written ? errno : why));
 }
 
 Image readPng(std::span<const uint8_t> bytes) {

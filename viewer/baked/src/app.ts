@@ -55,6 +55,7 @@ export class App {
   private readBusy = false;
   private readNext: readonly [number, number] | null = null;
   private inVr = false;
+  private frameAsked = 0;
 
   constructor(
     renderer: WebGLRenderer,
@@ -102,7 +103,7 @@ export class App {
   async start(): Promise<void> {
     this.stage.setEye(this.mover.eye);
     this.stage.setLight(this.light);
-    requestAnimationFrame(nowMs => this.frame(nowMs));
+    this.nextFrame();
     this.refresh();
     const factor = (i: number) => {
       const layer = this.home.layers[i]!;
@@ -142,9 +143,14 @@ export class App {
     };
   }
 
+  private nextFrame(): void {
+    cancelAnimationFrame(this.frameAsked);
+    if (!this.inVr) this.frameAsked = requestAnimationFrame(nowMs => this.frame(nowMs));
+  }
+
   // One frame of the browser.
   private frame(nowMs: number): void {
-    if (!this.inVr) requestAnimationFrame(next => this.frame(next));
+    this.nextFrame();
     this.advance(nowMs);
   }
 
@@ -381,7 +387,7 @@ export class App {
         () => {
           this.inVr = false;
           this.resize();
-          requestAnimationFrame(nowMs => this.frame(nowMs));
+          this.nextFrame();
         },
       );
     } catch {

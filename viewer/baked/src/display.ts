@@ -11,8 +11,10 @@ import { kMostStored, kUnit } from "./units.js";
 
 const kMeterWidth = 48;
 const kMeterHeight = 27;
-// A channel is all but white from there on: the more it were, the less smooth the edges of what is bright.
-const kMostExposed: Readonly<Record<ToneName, number>> = { neutral: 4, agx: 16, filmic: 6, clip: 2 };
+// A channel is all but white from there on, behind a pane too: the more it were, the less smooth the edges of what is
+// bright.
+const kMostExposed: Readonly<Record<ToneName, number>> = { neutral: 8, agx: 16, filmic: 8, clip: 4 };
+const kMostRadiance = kMostStored * kUnit;
 const kRampColours = 256;
 
 const kVertex = `
@@ -92,7 +94,8 @@ export class Display {
     uGrade: { value: new THREE.Vector2(1, 1) },
     uLux: { value: false },
     uEncode: { value: false },
-    uMostRadiance: { value: kMostStored * kUnit },
+    uMostRadiance: { value: new THREE.Vector3().setScalar(kMostRadiance) },
+    uDither: { value: 0 },
   };
   private readonly image: THREE.WebGLRenderTarget;
   private readonly meterTarget = new THREE.WebGLRenderTarget(kMeterWidth, kMeterHeight, { depthBuffer: false });
@@ -100,6 +103,7 @@ export class Display {
   private readonly meterQuad: THREE.Mesh;
   private readonly camera = new THREE.Camera();
   private readonly scale = { value: new THREE.Vector2() };
+  private readonly short: boolean;
   private ev100Now = 0;
 
   constructor(
@@ -108,9 +112,9 @@ export class Display {
     samples: number,
   ) {
     // Half of what 16-bit floats ask of the memory, where the chip has them; finish() hides their steps.
-    const short = renderer.extensions.has("EXT_color_buffer_float");
+    this.short = renderer.extensions.has("EXT_color_buffer_float");
     this.image = new THREE.WebGLRenderTarget(1, 1, {
-      ...(short ? { format: THREE.RGBFormat, type: THREE.UnsignedInt101111Type } : { type: THREE.HalfFloatType }),
+      ...(this.short ? { format: THREE.RGBFormat, type: THREE.UnsignedInt101111Type } : { type: THREE.HalfFloatType }),
       samples,
       resolveDepthBuffer: false, // nothing reads it
     });
@@ -153,10 +157,14 @@ export class Display {
   }
 
   draw(scene: THREE.Scene, camera: THREE.Camera): void {
-    const exposure = exposureFromEv100(this.ev100Now) * Math.max(...this.home.display.whiteGains);
-    this.uniforms.uMostRadiance!.value = Math.min(kMostExposed[this.home.display.tone] / exposure, kMostStored * kUnit);
+    const { uMostRadiance, uDither } = this.uniforms;
+    const [r, g, b] = (this.uniforms.uExposure!.value as THREE.Vector3).toArray();
+    const most = (exposure: number) => Math.min(kMostExposed[this.home.display.tone] / exposure, kMostRadiance);
+    (uMostRadiance!.value as THREE.Vector3).set(most(r), most(g), most(b));
+    uDither!.value = this.short ? 1 : 0;
     drawInto(this.renderer, this.image, scene, camera);
-    this.uniforms.uMostRadiance!.value = kMostStored * kUnit;
+    (uMostRadiance!.value as THREE.Vector3).setScalar(kMostRadiance);
+    uDither!.value = 0;
     drawInto(this.renderer, null, this.show, this.camera);
   }
 

@@ -21,6 +21,7 @@ export interface Batch {
   readonly kind: "opaque" | "mask" | "pane";
   readonly doubleSided: boolean;
   readonly maps: Maps;
+  readonly normalScale: number;
   readonly index: Uint32Array;
 }
 
@@ -160,6 +161,7 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
       kind: isPane(material) ? "pane" : material?.alphaMode === "MASK" ? "mask" : "opaque",
       doubleSided: material?.doubleSided ?? false,
       maps: packedMaps(mapsOf(document, material), material !== undefined && packable(document, material), packed),
+      normalScale: material?.normalTexture?.scale ?? 1,
     } as const;
     const key = JSON.stringify(of);
     const list = lists.get(key) ?? { of, parts: [] };

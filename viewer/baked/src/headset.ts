@@ -45,7 +45,7 @@ export class Headset {
     renderer.xr.setReferenceSpaceType("local-floor");
     this.present(true);
     const leave = () => {
-      renderer.setAnimationLoop(null);
+      renderer.xr.setAnimationLoop(null);
       for (const i of [0, 1]) renderer.xr.getController(i).removeEventListener("selectend", this.jump);
       this.present(false);
       this.follow();
@@ -59,9 +59,10 @@ export class Headset {
       throw error;
     }
     session.addEventListener("end", leave); // after the renderer's own listener
-    renderer.setAnimationLoop(nowMs => {
+    renderer.xr.setAnimationLoop(nowMs => {
       const eyes = renderer.getRenderTarget(); // of the headset
       frame(nowMs);
+      this.marker.visible = false; // not in reflections
       this.stage.reflect();
       this.aim();
       renderer.setRenderTarget(eyes);
@@ -73,8 +74,13 @@ export class Headset {
   private present(on: boolean): void {
     const { renderer, scene, display } = this.stage;
     renderer.xr.enabled = display.uniforms.uEncode!.value = scene.matrixWorldAutoUpdate = on;
-    if (on) scene.add(this.rig, this.marker);
-    else scene.remove(this.rig, this.marker);
+    if (on) {
+      scene.add(this.rig, this.marker);
+      return;
+    }
+    scene.remove(this.rig, this.marker);
+    this.marker.geometry.dispose();
+    this.marker.material.dispose();
   }
 
   // The place on a floor that the first controller points at.

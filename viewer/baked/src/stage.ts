@@ -192,6 +192,7 @@ export class Stage {
   private adapt(seconds: number): void {
     if (!this.adapting || this.scale) return;
     this.setEv100(adapted(this.display.ev100, this.wantedEv100!, Math.min(seconds, 0.1)));
+    if (!this.adapting) this.meterDue = true; // what was too bright to be told is seen now
   }
 
   private async measure(nowMs: number): Promise<void> {

@@ -10,15 +10,17 @@ export const kFinishGlsl = `
   uniform int uTone;
   uniform vec2 uGrade;
   uniform vec3 uExposure; // with the gains of the white balance
-  uniform float uMostRadiance; // cd/m2; lamps are no brighter, so that their edges are smooth
+  uniform vec3 uMostRadiance; // cd/m2; lamps are no brighter, so that their edges are smooth
+  uniform float uDither; // 1: the target has floats of 11, 11 and 10 bits, whose steps are hidden
   ${kDitherGlsl}
   ${kToneGlsl}
-  const vec3 kStep = vec3(1.0, 1.0, 2.0) / 64.0; // floats of 11, 11 and 10 bits
+  const vec3 kStep = vec3(1.0, 1.0, 2.0) / 64.0;
   vec3 finish(vec3 radiance, vec3 lux) {
     float amount = dot(lux, vec3(0.2126, 0.7152, 0.0722)) / ${kUnit.toFixed(1)};
-    if (uLux) return vec3(min(amount, ${kMostStored.toFixed(1)}));
+    vec3 dithered = 1.0 + uDither * (dither(gl_FragCoord.yx) - 0.5) * kStep;
+    if (uLux) return min(amount * dithered, ${kMostStored.toFixed(1)});
     if (uEncode) return srgbEncode(toneCurve(radiance * uExposure, uTone, uGrade));
-    return min(radiance, uMostRadiance) * (1.0 + (dither(gl_FragCoord.yx) - 0.5) * kStep) / ${kUnit.toFixed(1)};
+    return min(radiance * dithered, uMostRadiance) / ${kUnit.toFixed(1)};
   }`;
 
 export const kSurfaceVertex = `
@@ -82,7 +84,7 @@ export const kSurfaceFragment = `
   uniform vec3 cameraPosition;
   uniform bool uReflect; // false where the probe itself is made
   uniform vec3 uProbeAt, uRoomLow, uRoomHigh;
-  uniform vec2 uNormalScale;
+  uniform float uNormalScale;
   #ifdef HAS_BASE
     uniform sampler2D uBase;
   #endif
@@ -152,6 +154,19 @@ export const kSurfaceFragment = `
     #endif
   }
 
+  // How much more light arrives from where a normal map turns a place to. Layers do not tell; the probe does for the
+  // room, with the lamps as they are dimmed.
+  float towards(vec3 n) {
+    #if defined(HAS_NORMAL) && defined(PROBE)
+      if (!uReflect) return 1.0;
+      float there = luminance(textureCubeUV(uProbe, n, 1.0).rgb);
+      float here = luminance(textureCubeUV(uProbe, normalize(vNormal), 1.0).rgb);
+      return here > 0.0 ? clamp(there / here, 0.5, 2.0) : 1.0;
+    #else
+      return 1.0;
+    #endif
+  }
+
   vec3 shadingNormal() {
     vec3 n = normalize(vNormal);
     #ifdef HAS_NORMAL
@@ -199,7 +214,7 @@ export const kSurfaceFragment = `
     vec2 terms = specularTerms(clamp(dot(n, v), 0.0, 1.0), roughness);
     vec3 specular = mix(vF0.rgb, base.rgb, gloss.y) * terms.x + mix(vF0.a, 1.0, gloss.y) * terms.y;
     float kept = 1.0 - min(1.0, max(specular.r, max(specular.g, specular.b)));
-    vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * lux / kPi;
+    vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * lux * towards(n) / kPi;
     vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, lux) : vec3(0.0);
     #ifdef PANE
       // What lies behind passes by the alpha of the target's blending.

@@ -90,11 +90,11 @@ export class Surfaces {
   }
 
   private material(
-    { kind, doubleSided, maps }: Batch,
+    { kind, doubleSided, maps, normalScale }: Batch,
     textures: TextureSource,
     coloured: boolean,
   ): THREE.RawShaderMaterial {
-    const uniforms: Uniforms = { ...this.uniforms, uNormalScale: { value: new THREE.Vector2(1, 1) } };
+    const uniforms: Uniforms = { ...this.uniforms, uNormalScale: { value: normalScale } };
     const defines: Record<string, string> = { ...this.defines };
     const use = (map: keyof Maps, define: string, uniform: string, colour: boolean) => {
       const image = maps[map];

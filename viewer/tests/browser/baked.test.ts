@@ -95,6 +95,18 @@ test("daylight goes from one baked hour to the next", { skip }, async () => {
   await visit.end();
 });
 
+test("what is bright keeps its colour where light is balanced far from white", { skip }, async () => {
+  const whiteGains: Vec3 = [0.6, 1.2, 4.4]; // of a home lit by 2700 K
+  const file = bakedHome({ display: { ev100: kEv100, tone: "neutral", whiteGains } });
+  const ev = kEv100 - 4;
+  const visit = await opened(`${writePage("warm", file)}#eye=2,1.6,4,0,0,60&ev=${ev}`);
+  await visit.page.getByLabel("Strip: on").check();
+  await visit.page.getByLabel("Pendant: on", { exact: true }).uncheck();
+  const exposed = kLampLux[1]!.map((c, i) => (c * kAlbedo * exposureFromEv100(ev) * whiteGains[i]!) / Math.PI);
+  await shows(visit, toned(exposed as unknown as Vec3, "neutral"), "beyond white");
+  await visit.end();
+});
+
 test("a mirror of a floor shows the walls", { skip }, async () => {
   const visit = await opened(`${writePage("mirror", bakedHome({ glossy: true }))}#eye=2,1.6,4,0,-40,60&ev=${kEv100}`);
   const seen = await visit.color(320, 400);
@@ -102,6 +114,21 @@ test("a mirror of a floor shows the walls", { skip }, async () => {
   seen.forEach((c, i) => assert.ok(Math.abs(c - wall[i]!) < 0.02, `${seen} is not ${wall}`));
   await visit.shot("baked-mirror");
   await visit.end();
+});
+
+test("a normal map turned to the bright wall has more light", { skip }, async () => {
+  const floor = async (towards: number) => {
+    const file = bakedHome({ brightWall: true, floorNormal: [0, towards, 0.8] });
+    const visit = await opened(`${writePage(`bumpy${towards}`, file)}#eye=2,1.6,4,0,-60,60&ev=${kEv100}`);
+    const [red] = await visit.color(320, 300);
+    await visit.end();
+    return red;
+  };
+  const [even, to, from] = [await floor(0), await floor(-0.6), await floor(0.6)];
+  const [expected] = shown(kLampLux[0]!);
+  assert.ok(Math.abs(even - expected) < 0.01, `as layers tell where it is even: ${even}, ${expected}`);
+  // Away from it are four walls that are alike.
+  assert.ok(to > even + 0.03 && from < even - 0.008, `${from} < ${even} < ${to}`);
 });
 
 test("automatic exposure follows the light, and stays when it is locked", { skip }, async () => {

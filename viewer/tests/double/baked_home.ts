@@ -3,6 +3,7 @@
 import { deflateSync } from "node:zlib";
 import { encodeTexel, splitPlanes } from "../../baked/src/texels.js";
 import type { Vec3 } from "../../src/vector.js";
+import { encodePng } from "./png.js";
 
 export const kRoom = { width: 4, depth: 5, height: 2.6 } as const; // x, z, y from the origin, m
 export const kAlbedo = 0.5;
@@ -28,6 +29,9 @@ interface Options {
   readonly vertexLit?: boolean;
   readonly lamps?: boolean;
   readonly glossy?: boolean; // a mirror of metal for a floor
+  readonly brightWall?: boolean; // the one at z = 0 has five times the light
+  readonly display?: { readonly ev100: number; readonly tone: string; readonly whiteGains: Vec3 };
+  readonly floorNormal?: Vec3; // of a normal map: x along x, y along z
 }
 
 // Six faces seen from inside, each with one tile of the atlas.
@@ -74,6 +78,7 @@ function box() {
   const positions: number[] = [];
   const normals: number[] = [];
   const lightUvs: number[] = [];
+  const uvs: number[] = [];
   const index: number[] = [];
   faces.forEach(([origin, u, v, n], face) => {
     const [column, row] = [face % 4, Math.floor(face / 4)];
@@ -85,13 +90,14 @@ function box() {
     ] as const) {
       positions.push(...origin.map((o, i) => o + s * u[i]! + t * v[i]!));
       normals.push(...n.map(c => 127 * c), 0);
+      uvs.push(s, t);
       const texel = (first: number, share: number, size: number) =>
         Math.round((65535 * (first * kTile + 2.5 + share * (kTile - 5))) / size);
       lightUvs.push(texel(column, s, kAtlas.width), texel(row, t, kAtlas.height));
     }
     index.push(...[0, 1, 2, 0, 2, 3].map(i => 4 * face + i));
   });
-  return { positions, normals, lightUvs, index };
+  return { positions, normals, lightUvs, uvs, index };
 }
 
 class Binary {
@@ -118,8 +124,21 @@ class Binary {
   }
 }
 
-const texels = (lux: Vec3, count: number, scale: number): Uint8Array =>
-  deflateSync(splitPlanes(new Uint32Array(count).fill(encodeTexel(lux.map(c => c / scale) as unknown as Vec3))));
+const texels = (lux: Vec3, count: number, scale: number, bright?: readonly [number, number]): Uint8Array => {
+  const encoded = (times: number) => encodeTexel(lux.map(c => (times * c) / scale) as unknown as Vec3);
+  const all = new Uint32Array(count).fill(encoded(1));
+  return deflateSync(splitPlanes(bright ? all.fill(encoded(5), ...bright) : all));
+};
+
+function normalPng(normal: Vec3): Uint8Array {
+  const size = 4;
+  const pixel = normal.map(c => Math.round(127.5 + 127.5 * c));
+  return encodePng(
+    Uint8Array.from({ length: 3 * size ** 2 }, (_, i) => pixel[i % 3]!),
+    size,
+    size,
+  );
+}
 
 function chunk(type: number, data: Uint8Array, fill: number): Buffer {
   const out = Buffer.alloc(8 + Math.ceil(data.length / 4) * 4, fill);
@@ -138,14 +157,17 @@ export function glb(json: object, binary: Uint8Array): Uint8Array {
   return new Uint8Array(Buffer.concat([head, ...body]));
 }
 
-export function bakedHome({ vertexLit = false, lamps = true, glossy = false }: Options = {}): Uint8Array {
+export function bakedHome(options: Options = {}): Uint8Array {
+  const { vertexLit = false, lamps = true, glossy = false, brightWall = false, floorNormal } = options;
   const binary = new Binary();
-  const { positions, normals, lightUvs, index } = box();
+  const { positions, normals, lightUvs, uvs, index } = box();
   const count = positions.length / 3;
   const lit = new Uint8Array(4 * count);
   for (let i = 0; i < count; ++i) lit[4 * i] = vertexLit ? 1 : 0;
   const light = (lux: Vec3) => ({
-    bufferView: binary.add(texels(lux, 6 * kTile ** 2, kScale)),
+    bufferView: binary.add(
+      texels(lux, 6 * kTile ** 2, kScale, brightWall ? [2 * kTile ** 2, 3 * kTile ** 2] : undefined),
+    ),
     scale: kScale,
     tiles: [0, 1, 2, 3, 4, 5],
   });
@@ -163,6 +185,7 @@ export function bakedHome({ vertexLit = false, lamps = true, glossy = false }: O
     accessor(binary.add(lit, 4), 5121, "SCALAR"),
     accessor(binary.add(Uint16Array.from(index.slice(0, 6))), 5123, "SCALAR", false, 6),
     accessor(binary.add(Uint16Array.from(index.slice(6))), 5123, "SCALAR", false, index.length - 6),
+    accessor(binary.add(Float32Array.from(uvs)), 5126, "VEC2"),
   ];
   const layers = [
     ...(lamps
@@ -183,13 +206,24 @@ export function bakedHome({ vertexLit = false, lamps = true, glossy = false }: O
       },
     ]),
   ];
-  const attributes = { POSITION: 0, NORMAL: 1, TEXCOORD_1: 2, _VERTEX_LIT: 3 };
+  const attributes = {
+    POSITION: 0,
+    NORMAL: 1,
+    TEXCOORD_1: 2,
+    _VERTEX_LIT: 3,
+    ...(floorNormal ? { TEXCOORD_0: 6 } : {}),
+  };
   const matt = {
     pbrMetallicRoughness: { baseColorFactor: [kAlbedo, kAlbedo, kAlbedo, 1], metallicFactor: 0, roughnessFactor: 1 },
     extensions: { KHR_materials_specular: { specularFactor: 0 } },
   };
   const mirror = {
     pbrMetallicRoughness: { baseColorFactor: [0.9, 0.9, 0.9, 1], metallicFactor: 1, roughnessFactor: 0.05 },
+  };
+  const bumpy = { ...matt, normalTexture: { index: 0 } };
+  const normalMap = floorNormal && {
+    textures: [{ source: 0 }],
+    images: [{ mimeType: "image/png", bufferView: binary.add(normalPng(floorNormal)) }],
   };
   const json = {
     asset: { version: "2.0" },
@@ -199,12 +233,13 @@ export function bakedHome({ vertexLit = false, lamps = true, glossy = false }: O
     meshes: [
       {
         primitives: [
-          { attributes, indices: 4, material: glossy ? 1 : 0 },
+          { attributes, indices: 4, material: glossy ? 1 : floorNormal ? 2 : 0 },
           { attributes, indices: 5, material: 0 },
         ],
       },
     ],
-    materials: [matt, mirror],
+    materials: [matt, mirror, ...(floorNormal ? [bumpy] : [])],
+    ...normalMap,
     accessors,
     bufferViews: binary.views,
     buffers: [{ byteLength: binary.bytes().length }],
@@ -230,7 +265,7 @@ export function bakedHome({ vertexLit = false, lamps = true, glossy = false }: O
         ],
         cameras: [{ name: "Door", position: [2, 1.6, 4], forward: [0, 0, -1], yFovDeg: 60 }],
         camera: 0,
-        display: { ev100: kEv100, tone: "agx", whiteGains: [1, 1, 1] },
+        display: options.display ?? { ev100: kEv100, tone: "agx", whiteGains: [1, 1, 1] },
       },
     },
   };
