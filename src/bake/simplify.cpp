@@ -23,6 +23,7 @@ void simplifyMeshes(Scene& scene, float errorM) {
   }
   parallelFor(scene.meshes.size(), 1, [&](size_t i) {
     Mesh& mesh = scene.meshes[i];
+    if (mesh.material >= 0 && !isBlack(scene.materials[static_cast<size_t>(mesh.material)].emission)) return;
     if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0)) return;
     const float* positions = &mesh.positions.front().x;
     const float scale = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(Vec3));

@@ -7,7 +7,7 @@ namespace roomlight::bake {
 
 // Meshes in which no place of the surface is farther than `errorM` from where it was, as far as edges of quadrics tell;
 // borders, seams of normals and texture coordinates stay. A mesh that is placed larger than it is made is simplified
-// less.
+// less. What shines stays as it is: with its area it would lose flux.
 void simplifyMeshes(Scene& scene, float errorM);
 
 }  // namespace roomlight::bake
