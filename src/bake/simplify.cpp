@@ -11,6 +11,37 @@ namespace {
 
 constexpr size_t kFewTriangles = 64;
 
+constexpr float kLuminaireM = 0.03f;  // what is so near to a light source is part of a luminaire
+
+bool shines(const Scene& scene, const Mesh& mesh) {
+  return mesh.material >= 0 && !isBlack(scene.materials[static_cast<size_t>(mesh.material)].emission);
+}
+
+bool meet(const Bounds3& a, const Bounds3& b) {
+  return maxComponent(a.lo - b.hi) <= 0 && maxComponent(b.lo - a.hi) <= 0;
+}
+
+// Of each mesh, whether one of its copies is part of a luminaire: a bulb, which would lose flux with its area, its
+// shade, a profile, or what hides it. Of millimetres there depends how much light gets out, and where to.
+std::vector<bool> partsOfLuminaires(const Scene& scene) {
+  std::vector<Bounds3> sources;
+  const auto add = [&](Bounds3 b) {
+    if (!b.empty()) sources.push_back({b.lo - Vec3(kLuminaireM), b.hi + Vec3(kLuminaireM)});
+  };
+  for (const Instance& i : scene.instances) {
+    if (shines(scene, scene.meshes[static_cast<size_t>(i.mesh)])) add(instanceBounds(scene, i));
+  }
+  for (const Lamp& lamp : scene.lamps) add({lamp.position, lamp.position});
+  std::vector<bool> out(scene.meshes.size());
+  for (const Instance& i : scene.instances) {
+    const auto mesh = static_cast<size_t>(i.mesh);
+    if (out[mesh] || scene.meshes[mesh].triangleCount() < kFewTriangles) continue;
+    const Bounds3 bounds = instanceBounds(scene, i);
+    out[mesh] = std::any_of(sources.begin(), sources.end(), [&](const Bounds3& s) { return meet(s, bounds); });
+  }
+  return out;
+}
+
 float largestStretch(const Affine& a) { return std::max({length(a.x), length(a.y), length(a.z)}); }
 
 }  // namespace
@@ -21,10 +52,10 @@ void simplifyMeshes(Scene& scene, float errorM) {
     float& s = stretch[static_cast<size_t>(instance.mesh)];
     s = std::max(s, largestStretch(instance.worldFromObject));
   }
+  const std::vector<bool> kept = partsOfLuminaires(scene);
   parallelFor(scene.meshes.size(), 1, [&](size_t i) {
     Mesh& mesh = scene.meshes[i];
-    if (mesh.material >= 0 && !isBlack(scene.materials[static_cast<size_t>(mesh.material)].emission)) return;
-    if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0)) return;
+    if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0) || kept[i]) return;
     const float* positions = &mesh.positions.front().x;
     const float scale = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(Vec3));
     if (!(scale > 0)) return;

@@ -35,5 +35,20 @@ TEST(Simplify, leavesWhatShines) {
   }
 }
 
+TEST(Simplify, leavesShadesOfLamps) {
+  Scene scene;
+  const int white = addMaterial(scene, lambertian(0.5f));
+  addSphere(scene, {0, 0, 0}, 0.03f, addMaterial(scene, lambertian(0, 1000)));
+  addSphere(scene, {0, 0, 0}, 0.1f, white);
+  addSphere(scene, {3, 0, 0}, 0.1f, white);
+  addSphere(scene, {6, 0, 0}, 0.1f, white);
+  scene.lamps = {pointLamp({6, 0, 0}, 10)};
+  std::vector<size_t> triangles;
+  for (const Mesh& mesh : scene.meshes) triangles.push_back(mesh.triangleCount());
+  simplifyMeshes(scene, 0.004f);
+  for (const size_t i : {0, 1, 3}) EXPECT_EQ(scene.meshes[i].triangleCount(), triangles[i]) << i;
+  EXPECT_LT(scene.meshes[2].triangleCount(), triangles[2]);
+}
+
 }  // namespace
 }  // namespace roomlight::bake
