@@ -11,6 +11,7 @@ namespace {
 
 constexpr size_t kFewTriangles = 64;
 
+constexpr float kOfThickness = 0.02f;  // of its thickness a mesh may be off: planks, tiles and rugs lie on other things
 constexpr float kLuminaireM = 0.03f;  // what is so near to a light source is part of a luminaire
 
 bool shines(const Scene& scene, const Mesh& mesh) {
@@ -42,6 +43,17 @@ std::vector<bool> partsOfLuminaires(const Scene& scene) {
   return out;
 }
 
+// The smallest extent of each mesh as it is placed.
+std::vector<float> thicknesses(const Scene& scene) {
+  std::vector<float> out(scene.meshes.size(), kInfinity);
+  for (const Instance& i : scene.instances) {
+    const Vec3 size = instanceBounds(scene, i).size();
+    float& thickness = out[static_cast<size_t>(i.mesh)];
+    thickness = std::min({thickness, size.x, size.y, size.z});
+  }
+  return out;
+}
+
 float largestStretch(const Affine& a) { return std::max({length(a.x), length(a.y), length(a.z)}); }
 
 }  // namespace
@@ -53,16 +65,18 @@ void simplifyMeshes(Scene& scene, float errorM) {
     s = std::max(s, largestStretch(instance.worldFromObject));
   }
   const std::vector<bool> kept = partsOfLuminaires(scene);
+  const std::vector<float> thickness = thicknesses(scene);
   parallelFor(scene.meshes.size(), 1, [&](size_t i) {
     Mesh& mesh = scene.meshes[i];
     if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0) || kept[i]) return;
     const float* positions = &mesh.positions.front().x;
     const float scale = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(Vec3));
     if (!(scale > 0)) return;
+    const float most = std::min(errorM, kOfThickness * thickness[i]);
     std::vector<uint32_t> indices(mesh.indices.size());
     const size_t count =
         meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions, mesh.positions.size(),
-                         sizeof(Vec3), 0, errorM / (stretch[i] * scale), 0, nullptr);
+                         sizeof(Vec3), 0, most / (stretch[i] * scale), 0, nullptr);
     if (count == 0) return;  // a thing as small as the error stays as it is
     indices.resize(count);
     mesh.indices = std::move(indices);

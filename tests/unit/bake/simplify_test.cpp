@@ -50,5 +50,32 @@ TEST(Simplify, leavesShadesOfLamps) {
   EXPECT_LT(scene.meshes[2].triangleCount(), triangles[2]);
 }
 
+// Bumps of 1 mm on a board, which lies on something.
+size_t trianglesLeft(float thicknessM) {
+  Mesh board;
+  constexpr uint32_t kSide = 20;
+  for (uint32_t y = 0; y <= kSide; ++y) {
+    for (uint32_t x = 0; x <= kSide; ++x)
+      board.positions.push_back(
+          {0.05f * static_cast<float>(x), (x + y) % 2 ? -0.001f : 0, 0.05f * static_cast<float>(y)});
+  }
+  board.positions.push_back({0, -thicknessM, 0});
+  for (uint32_t y = 0; y < kSide; ++y) {
+    for (uint32_t x = 0; x < kSide; ++x) {
+      const uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
+      board.indices.insert(board.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
+    }
+  }
+  board.indices.insert(board.indices.end(), {0, 1, static_cast<uint32_t>(board.positions.size() - 1)});
+  Scene scene;
+  board.material = addMaterial(scene, lambertian(0.5f));
+  scene.meshes = {board};
+  scene.instances.resize(1), scene.instances[0].mesh = 0;
+  simplifyMeshes(scene, 0.004f);
+  return scene.meshes[0].triangleCount();
+}
+
+TEST(Simplify, movesThinThingsLess) { EXPECT_GT(trianglesLeft(0.01f), 2 * trianglesLeft(0.5f)); }
+
 }  // namespace
 }  // namespace roomlight::bake
