@@ -158,14 +158,10 @@ class AtlasWriter {
     if (chart.back) std::swap(c[1], c[2]);
     return c;
   }
-  // Of the lit side, unit.
-  Vec3 normalAt(const Chart& chart, const std::array<uint32_t, 3>& c, Vec3 geometric, float b1, float b2) const {
-    if (mesh_->normals.empty()) return geometric;
-    const Vec3 n = mesh_->normals[c[0]] * (1 - b1 - b2) + mesh_->normals[c[1]] * b1 + mesh_->normals[c[2]] * b2;
-    const Vec3 world = worldFromObject_->normal(n) * (chart.back ? -1.0f : 1.0f);
-    const float l = length(world);
-    if (!(l > 0)) return geometric;
-    return dot(world, geometric) < 0 ? -world / l : world / l;
+  // Of the lit side, unit. `b1`, `b2`: of the corners as cornersOf() has them.
+  Vec3 normalAt(const Chart& chart, uint32_t triangle, Vec3 geometric, float b1, float b2) const {
+    if (chart.back) std::swap(b1, b2);
+    return smoothNormalAt(*mesh_, *worldFromObject_, {triangle, b1, b2}, geometric);
   }
   static Vec3 geometricNormal(const std::array<Vec3, 3>& p) {
     const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
@@ -243,7 +239,8 @@ class AtlasWriter {
     const std::array<uint32_t, 3> c = cornersOf(chart, at.triangle);
     const std::array<Vec3, 3> p = placesOf(c);
     const Vec3 place = p[0] * (1 - at.b1 - at.b2) + p[1] * at.b1 + p[2] * at.b2;
-    return {towards(place, (p[0] + p[1] + p[2]) / 3), normalAt(chart, c, geometricNormal(p), at.b1, at.b2), edgeM};
+    return {towards(place, (p[0] + p[1] + p[2]) / 3), normalAt(chart, at.triangle, geometricNormal(p), at.b1, at.b2),
+            edgeM};
   }
 
   // Texels that interpolation reads and no element stands for repeat the nearest one.
@@ -276,7 +273,7 @@ class AtlasWriter {
       const std::array<Vec3, 3> p = placesOf(c);
       const Vec3 geometric = geometricNormal(p);
       for (size_t k = 0; k < 3; ++k) {
-        const Vec3 n = normalAt(chart, c, geometric, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
+        const Vec3 n = normalAt(chart, t, geometric, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
         placed.indices.push_back(shared.add(c[k], p[k], n, p));
       }
     }

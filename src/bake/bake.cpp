@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bake/budget.h"
+#include "bake/home_places.h"
 #include "bake/light_texels.h"
 #include "bake/lit_places.h"
 #include "bake/simplify.h"
@@ -54,10 +55,13 @@ void keepRooms(Scene& scene, const std::vector<size_t>& rooms) {
 struct LaidOut {
   Scene scene;  // simplified
   Atlas atlas;
-  LitPlaces lit;
+  LitPlaces lit;  // on the home as it is
 };
 
-Result<LaidOut> layOut(Scene scene, const BakeSettings& settings, Stages& stages) {
+constexpr float kMostOff = 2;  // times what simplifying may move: its own bound is an estimate
+
+Result<LaidOut> layOut(const RayScene& home, const BakeSettings& settings, Stages& stages) {
+  Scene scene = home.scene();
   stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM), 0; });
   const RayScene rays(scene);
   const SeenSides seen = stages.run("seen", [&](const Progress&) {
@@ -68,6 +72,7 @@ Result<LaidOut> layOut(Scene scene, const BakeSettings& settings, Stages& stages
     Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
     if (!atlas) return Error{atlas.error()};
     LitPlaces lit = litPlacesOf(atlas.value(), rays, seen, settings.placesApartM);
+    putOnHome(lit, home, scene, kMostOff * settings.simplifyM);
     return LaidOut{scene, std::move(atlas.value()), std::move(lit)};
   });
 }
@@ -97,15 +102,16 @@ Result<FileParts> partsOf(const LaidOut& laid, const BakeWish& wish, const BakeS
 }
 
 // With settings coarse enough for the budget.
-Result<LaidOut> layOutWithin(const Scene& scene, const BakeWish& wish, BakeSettings& settings, Stages& stages) {
-  Result<LaidOut> laid = layOut(scene, settings, stages);
+Result<LaidOut> layOutWithin(const Scene& home, const BakeWish& wish, BakeSettings& settings, Stages& stages) {
+  const RayScene rays(home);
+  Result<LaidOut> laid = layOut(rays, settings, stages);
   if (!laid || wish.budgetBytes == 0 || stages.cancelled()) return laid;
   const Result<FileParts> parts = partsOf(laid.value(), wish, settings);
   if (!parts) return Error{parts.error()};
   const float texelM = settings.charts.texelM, simplifyM = settings.simplifyM;
   settings = withinBudget(settings, parts.value(), wish.budgetBytes);
   return texelM == settings.charts.texelM && simplifyM == settings.simplifyM ? std::move(laid)
-                                                                             : layOut(scene, settings, stages);
+                                                                             : layOut(rays, settings, stages);
 }
 
 // From places to the atlas, with less noise.
@@ -181,16 +187,15 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   if (!laidOut) return Error{laidOut.error()};
   if (stages.cancelled()) return BakedHome{};
   const LaidOut& laid = laidOut.value();
-  const Scene& scene = laid.scene;
   if (laid.lit.places.empty()) return Error{"nothing of the home can be seen from its rooms or cameras"};
   const std::vector<SurfaceElement>& places = laid.lit.places;
-  Result<LampLayers> lamps = lampLayers(scene, places, settings.layers, stages);
+  Result<LampLayers> lamps = lampLayers(whole, places, settings.layers, stages);
   if (!lamps) return Error{lamps.error()};
   if (stages.cancelled()) return BakedHome{};
   markOff(lamps.value().layers);
   std::vector<BakedLayer> daylight;
   for (const DaylightHour& hour : wish.hours) {
-    Scene day = scene;
+    Scene day = whole;
     day.suns = hour.suns, day.sky = hour.sky;
     Result<std::vector<BakedLayer>> layers = daylightLayers(day, hour.hour, places, settings.layers, stages);
     if (!layers) return Error{layers.error()};
@@ -201,7 +206,9 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   if (!shown) return Error{shown.error()};
   return stages.run("pack", [&](const Progress&) -> Result<BakedHome> {
     spread(laid, lamps.value().layers), spread(laid, daylight);
-    const auto pack = [&] { return glbOf(scene, laid.atlas, lamps.value(), daylight, shown.value(), settings.glb); };
+    const auto pack = [&] {
+      return glbOf(laid.scene, laid.atlas, lamps.value(), daylight, shown.value(), settings.glb);
+    };
     Result<Glb> glb = pack();
     // What was foreseen too small.
     while (glb && wish.budgetBytes > 0 && writtenSize(wish, glb.value().bytes) > wish.budgetBytes &&

@@ -28,9 +28,7 @@ bool isBuried(const SurfaceElement& e, size_t number, const RayScene& rays, cons
     Sampler sampler(number, static_cast<uint32_t>(k), 0);
     const Ray ray{origin, frame.toWorld(sampleCosineHemisphere(sampler.next2()))};
     const Hit hit = rays.intersect(ray);
-    const TriangleVertices v =
-        hit.valid() ? worldTriangle(rays.scene(), hit.instance, hit.triangle) : TriangleVertices();
-    if (!hit.valid() || seen.seen(hit.instance, hit.triangle, dot(cross(v.b - v.a, v.c - v.a), ray.direction) > 0)) {
+    if (!hit.valid() || seen.seen(hit.instance, hit.triangle, meetsBack(rays.scene(), hit, ray.direction))) {
       ++open;
     } else if (hit.t < kCoverM) {
       ++covered;
@@ -174,6 +172,8 @@ LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides&
       }
       for (size_t i = first; i < end; ++i) out.ofElement[i] = {{placeOf[open[i] == kNone ? i : open[i]]}, {1}};
     }
+    const Chart& chart = atlas.charts[atlas.chartOf[first]].chart;
+    out.sides.resize(out.places.size(), {chart.instance, chart.back, chart.byVertices});
     first = end;
   }
   return out;

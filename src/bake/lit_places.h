@@ -19,8 +19,15 @@ struct LightShares {
   std::array<float, kMostShares> weight{};
 };
 
+struct LitSide {
+  uint32_t instance = 0;
+  bool back = false;
+  bool shared = false;  // by vertices: the normal is a mean of theirs
+};
+
 struct LitPlaces {
   std::vector<SurfaceElement> places;
+  std::vector<LitSide> sides;          // that the places are on
   std::vector<LightShares> ofElement;  // of the atlas
   // Light on all elements of the atlas from light on places.
   template <class T>

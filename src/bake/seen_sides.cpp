@@ -110,6 +110,11 @@ void SeenSides::mark(const Hit& hit, bool back) {
       .fetch_or(static_cast<uint8_t>(back ? 2 : 1), std::memory_order_relaxed);
 }
 
+bool meetsBack(const Scene& scene, const Hit& hit, Vec3 direction) {
+  const TriangleVertices v = worldTriangle(scene, hit.instance, hit.triangle);
+  return dot(cross(v.b - v.a, v.c - v.a), direction) > 0;
+}
+
 std::vector<Camera> camerasInside(const Scene& scene) {
   std::vector<Camera> out;
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
@@ -150,8 +155,7 @@ SeenSides seenFrom(const RayScene& rays, std::span<const Vec3> eyes, size_t coun
       const Hit hit = rays.intersect(ray);
       if (!hit.valid()) return;
       const SurfacePlace place = placeAt(scene, hit, ray.direction);
-      const TriangleVertices v = worldTriangle(scene, hit.instance, hit.triangle);
-      seen.mark(hit, dot(cross(v.b - v.a, v.c - v.a), ray.direction) > 0);
+      seen.mark(hit, meetsBack(scene, hit, ray.direction));
       if (!letsThrough(*place.material)) return;
       ray.origin = offsetOrigin(place.p, -place.ng);
     }

@@ -23,6 +23,9 @@ class SeenSides {
   std::vector<uint8_t> sides_;  // bit 0: the side from which it is counter-clockwise in the world, bit 1: the other
 };
 
+// Whether a ray of that direction meets the side from which the triangle is clockwise in the world.
+bool meetsBack(const Scene& scene, const Hit& hit, Vec3 direction);
+
 // Cameras that look as eyes do: from inside a room, of a scene without rooms all; and the one in use, which may look
 // into a box from where its front is open, but not one that cuts the home open.
 std::vector<Camera> camerasInside(const Scene& scene);

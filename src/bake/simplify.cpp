@@ -3,6 +3,9 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
 
 #include "base/parallel.h"
 
@@ -10,38 +13,7 @@ namespace roomlight::bake {
 namespace {
 
 constexpr size_t kFewTriangles = 64;
-
 constexpr float kOfThickness = 0.02f;  // of its thickness a mesh may be off: planks, tiles and rugs lie on other things
-constexpr float kLuminaireM = 0.03f;  // what is so near to a light source is part of a luminaire
-
-bool shines(const Scene& scene, const Mesh& mesh) {
-  return mesh.material >= 0 && !isBlack(scene.materials[static_cast<size_t>(mesh.material)].emission);
-}
-
-bool meet(const Bounds3& a, const Bounds3& b) {
-  return maxComponent(a.lo - b.hi) <= 0 && maxComponent(b.lo - a.hi) <= 0;
-}
-
-// Of each mesh, whether one of its copies is part of a luminaire: a bulb, which would lose flux with its area, its
-// shade, a profile, or what hides it. Of millimetres there depends how much light gets out, and where to.
-std::vector<bool> partsOfLuminaires(const Scene& scene) {
-  std::vector<Bounds3> sources;
-  const auto add = [&](Bounds3 b) {
-    if (!b.empty()) sources.push_back({b.lo - Vec3(kLuminaireM), b.hi + Vec3(kLuminaireM)});
-  };
-  for (const Instance& i : scene.instances) {
-    if (shines(scene, scene.meshes[static_cast<size_t>(i.mesh)])) add(instanceBounds(scene, i));
-  }
-  for (const Lamp& lamp : scene.lamps) add({lamp.position, lamp.position});
-  std::vector<bool> out(scene.meshes.size());
-  for (const Instance& i : scene.instances) {
-    const auto mesh = static_cast<size_t>(i.mesh);
-    if (out[mesh] || scene.meshes[mesh].triangleCount() < kFewTriangles) continue;
-    const Bounds3 bounds = instanceBounds(scene, i);
-    out[mesh] = std::any_of(sources.begin(), sources.end(), [&](const Bounds3& s) { return meet(s, bounds); });
-  }
-  return out;
-}
 
 // The smallest extent of each mesh as it is placed.
 std::vector<float> thicknesses(const Scene& scene) {
@@ -54,6 +26,56 @@ std::vector<float> thicknesses(const Scene& scene) {
   return out;
 }
 
+constexpr float kCreaseCos = 0.5f;  // faces that meet at more than 60° have normals of their own
+constexpr float kKeptCos = 0.97f;  // normals up to 14° off stay as they are
+
+std::vector<Vec3> facesOf(const Mesh& mesh) {  // normals as long as twice the area
+  std::vector<Vec3> out;
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3 a = mesh.positions[mesh.indices[i]];
+    out.push_back(cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a));
+  }
+  return out;
+}
+
+template <class T>
+void repeat(std::vector<T>& values, uint32_t i) {
+  if (!values.empty()) values.push_back(T(values[i]));
+}
+
+uint32_t withNormal(Mesh& mesh, uint32_t vertex, Vec3 normal) {
+  repeat(mesh.positions, vertex), repeat(mesh.tangents, vertex), repeat(mesh.tangentSigns, vertex);
+  repeat(mesh.uv[0], vertex), repeat(mesh.uv[1], vertex);
+  repeat(mesh.colors, vertex), repeat(mesh.colorAlphas, vertex);
+  mesh.normals.push_back(normal);
+  return static_cast<uint32_t>(mesh.normals.size() - 1);
+}
+
+// The smooth normals of a ceiling's edge lean outwards, and vertices beside it stand upright. Without those the whole
+// ceiling would lean: where a corner's normal is far from those of the faces around it, it becomes their mean by area.
+void mendNormals(Mesh& mesh) {
+  const std::vector<Vec3> faces = facesOf(mesh);
+  std::vector<std::vector<uint32_t>> around(mesh.positions.size());
+  for (size_t i = 0; i < mesh.indices.size(); ++i) around[mesh.indices[i]].push_back(static_cast<uint32_t>(i / 3));
+  std::map<std::tuple<uint32_t, float, float, float>, uint32_t> made;
+  for (size_t i = 0; i < mesh.indices.size(); ++i) {
+    const uint32_t vertex = mesh.indices[i];
+    const Vec3 own = faces[i / 3];
+    if (!(length(own) > 0)) continue;
+    Vec3 sum;
+    for (const uint32_t f : around[vertex]) {
+      if (dot(faces[f], own) >= kCreaseCos * length(faces[f]) * length(own)) sum += faces[f];
+    }
+    const Vec3 mean = normalize(sum), given = mesh.normals[vertex];
+    // Some files have all normals the other way.
+    if (std::abs(dot(mean, given)) >= kKeptCos * length(given)) continue;
+    const Vec3 normal = dot(mean, given) < 0 ? -mean : mean;
+    const auto [at, isNew] = made.try_emplace({vertex, normal.x, normal.y, normal.z}, 0);
+    if (isNew) at->second = withNormal(mesh, vertex, normal);
+    mesh.indices[i] = at->second;
+  }
+}
+
 float largestStretch(const Affine& a) { return std::max({length(a.x), length(a.y), length(a.z)}); }
 
 }  // namespace
@@ -64,11 +86,10 @@ void simplifyMeshes(Scene& scene, float errorM) {
     float& s = stretch[static_cast<size_t>(instance.mesh)];
     s = std::max(s, largestStretch(instance.worldFromObject));
   }
-  const std::vector<bool> kept = partsOfLuminaires(scene);
   const std::vector<float> thickness = thicknesses(scene);
   parallelFor(scene.meshes.size(), 1, [&](size_t i) {
     Mesh& mesh = scene.meshes[i];
-    if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0) || kept[i]) return;
+    if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0)) return;
     const float* positions = &mesh.positions.front().x;
     const float scale = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(Vec3));
     if (!(scale > 0)) return;
@@ -77,9 +98,10 @@ void simplifyMeshes(Scene& scene, float errorM) {
     const size_t count =
         meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions, mesh.positions.size(),
                          sizeof(Vec3), 0, most / (stretch[i] * scale), 0, nullptr);
-    if (count == 0) return;  // a thing as small as the error stays as it is
+    if (count == 0 || count == indices.size()) return;  // a thing as small as the error stays as it is
     indices.resize(count);
     mesh.indices = std::move(indices);
+    if (!mesh.normals.empty()) mendNormals(mesh);
   });
 }
 

@@ -8,8 +8,7 @@ namespace roomlight::bake {
 // Meshes in which no place of the surface is farther than `errorM` from where it was, as far as edges of quadrics tell;
 // borders, seams of normals and texture coordinates stay. Thin meshes are moved less: planks, tiles and rugs lie
 // millimetres above other things, which would come through. A mesh that is placed larger than it is made is simplified
-// less. What shines stays as it is, and what is around a light source: with its area a bulb would lose flux, and how
-// much light leaves a shade is a matter of millimetres.
+// less.
 void simplifyMeshes(Scene& scene, float errorM);
 
 }  // namespace roomlight::bake

@@ -211,6 +211,14 @@ Vec3 shadingNormalAt(const Scene& scene, const Mesh& mesh, TrianglePoint p, Vec3
   return bumpedNormal(scene, material, n, tangent, sign, vertexValuesAt(mesh, p));
 }
 
+Vec3 smoothNormalAt(const Mesh& mesh, const Affine& worldFromObject, TrianglePoint p, Vec3 geometric) {
+  if (mesh.normals.empty()) return geometric;
+  const Vec3 n = worldFromObject.normal(interpolate(mesh.normals, mesh, p));
+  const float l = length(n);
+  if (!(l > 0)) return geometric;
+  return dot(n, geometric) < 0 ? -n / l : n / l;
+}
+
 bool hasNormalMap(const Material& material, const Mesh& mesh) {
   return material.normalTexture.texture >= 0 && !mesh.uv[material.normalTexture.uvSet].empty();
 }

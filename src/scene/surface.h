@@ -52,9 +52,11 @@ bool isUniform(const Material& m, const Mesh& mesh);
 // Interpolated shading normal in object space, normal map applied; unit. `geometric` is the unit face normal, used
 // where the mesh has no normals.
 Vec3 shadingNormalAt(const Scene& scene, const Mesh& mesh, TrianglePoint p, Vec3 geometric);
-// Its parts: the map applied to the interpolated normal n, unit, which takes a tangent of any length (zero: no map)
-// and the side of the bitangent; and that tangent along +u of a triangle, from its texture coordinates (zero where they
-// are degenerate).
+// The interpolated one alone, in the world, unit, on the side that the unit face normal `geometric` is on.
+Vec3 smoothNormalAt(const Mesh& mesh, const Affine& worldFromObject, TrianglePoint p, Vec3 geometric);
+// Parts of the former: the map applied to the interpolated normal n, unit, which takes a tangent of any length (zero:
+// no map) and the side of the bitangent; and that tangent along +u of a triangle, from its texture coordinates (zero
+// where they are degenerate).
 bool hasNormalMap(const Material& material, const Mesh& mesh);
 Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tangent, float sign,
                   const VertexValues& values);

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bake/light_texels.h"
 #include "bake/lit_places.h"
 #include "base/parallel.h"
 #include "import/import.h"
 #include "support/rooms.h"
+#include "unit/bake/texels_of.h"
 #include "unit/temporary_folder.h"
 
 namespace roomlight::bake {
@@ -95,6 +97,43 @@ TEST_F(Bake, aFurnaceIsEvenEverywhereAfterSmoothing) {
   const double after = deviation();
   EXPECT_LT(after, 0.03);
   EXPECT_LT(after, 0.6 * before);
+}
+
+// The sum of all light in the first layer of a file.
+double lightIn(const std::string& glb) {
+  const auto json = jsonOf(glb);
+  const auto& light = json["extensions"]["ROOMLIGHT_light_layers"]["layers"][0]["light"];
+  const auto& view = json["bufferViews"][light["bufferView"].get<size_t>()];
+  uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  const std::string_view bytes = std::string_view(glb).substr(28 + length);
+  const auto tile = json["extensions"]["ROOMLIGHT_light_layers"]["atlas"]["tile"].get<size_t>();
+  double sum = 0;
+  for (const uint32_t texel : texelsOf(bytes.substr(view["byteOffset"].get<size_t>(), view["byteLength"].get<size_t>()),
+                                       light["tiles"].size() * tile * tile))
+    sum += static_cast<double>(luminance(fromRgb9e5(texel)));
+  return sum * light["scale"].get<double>();
+}
+
+// A bulb in a trough, which nobody sees. Simplified, one of this size would lose a tenth of its area, and so of its
+// flux.
+TEST_F(Bake, theHomeIsLitAsItIs) {
+  constexpr float kRadiusM = 0.03f, kLuminance = 10000;
+  const Vec3 place{2, 2.1f, 1.5f};
+  Scene bulb = room(0);
+  bulb.lamps.clear();
+  addTube(bulb, {2, 2, 1.5f}, 0.2f, 0.2f, 0);
+  addRectangle(bulb, {1.7f, 2, 1.2f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 0);
+  Scene point = bulb;
+  addSphere(bulb, place, kRadiusM, addMaterial(bulb, lambertian(0, kLuminance)));
+  point.lamps = {pointLamp(place, kLuminance * kPi * kRadiusM * kRadiusM)};
+  double light[2] = {};
+  for (const bool isBulb : {false, true}) {
+    const Result<BakedHome> baked = bakeHome(isBulb ? bulb : point, {}, settings_, stages_);
+    ASSERT_TRUE(baked) << baked.error();
+    light[isBulb] = lightIn(baked.value().glb.bytes);
+  }
+  EXPECT_NEAR(light[1] / light[0], 1, 0.01);
 }
 
 TEST_F(Bake, theFileOpensAsAnyGltfAndHoldsWhatIsSeen) {
