@@ -1,9 +1,10 @@
-// From radiance to the screen: the scene is drawn into floats of 10 and 11 bits with antialiasing, then exposed,
+// From radiance to the screen: the scene is drawn into short floats with antialiasing, then exposed,
 // balanced, toned and encoded. A small copy of it says how bright it is.
 import * as THREE from "three";
 import type { Home, ToneName } from "./document.js";
 import { falseColour, type Scale } from "./false_colour.js";
 import { drawInto } from "./light_sum.js";
+import { pixelFormat } from "./pixel_format.js";
 import { kReadoutGlsl, readoutAt } from "./readout.js";
 import type { Uniforms } from "./surfaces.js";
 import { exposureFromEv100, kDitherGlsl, kToneGlsl, kToneNumbers } from "./tone.js";
@@ -111,11 +112,11 @@ export class Display {
     private readonly home: Home,
     samples: number,
   ) {
-    // Half of what 16-bit floats ask of the memory, where the chip has them; finish() hides their steps.
-    this.short = renderer.extensions.has("EXT_color_buffer_float");
+    const format = pixelFormat(renderer.getContext() as WebGL2RenderingContext, samples);
+    this.short = format.short;
     this.image = new THREE.WebGLRenderTarget(1, 1, {
       ...(this.short ? { format: THREE.RGBFormat, type: THREE.UnsignedInt101111Type } : { type: THREE.HalfFloatType }),
-      samples,
+      samples: format.samples,
       resolveDepthBuffer: false, // nothing reads it
     });
     const ramp = new Uint8Array(4 * kRampColours);
