@@ -17,7 +17,7 @@ struct BakeSettings {
   AtlasSettings atlas;
   LayerSettings layers;
   GlbSettings glb;
-  float simplifyM = 0.002f;     // how far surfaces may be from where they are
+  float simplifyM = 0.001f;     // how far surfaces may be from where they are
   float placesApartM = 0.08f;   // where vertices share light
   size_t seenRays = size_t{1} << 21, raysAnEye = 4096;  // at least, that tell what can be seen
 };

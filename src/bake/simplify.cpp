@@ -13,7 +13,7 @@ namespace roomlight::bake {
 namespace {
 
 constexpr size_t kFewTriangles = 64;
-constexpr float kOfThickness = 0.02f;  // of its thickness a mesh may be off: planks, tiles and rugs lie on other things
+constexpr float kOfThickness = 0.01f;  // of its thickness a mesh may be off: planks, tiles and rugs lie on other things
 
 // The smallest extent of each mesh as it is placed.
 std::vector<float> thicknesses(const Scene& scene) {
@@ -27,6 +27,7 @@ std::vector<float> thicknesses(const Scene& scene) {
 }
 
 constexpr float kCreaseCos = 0.5f;  // faces that meet at more than 60° have normals of their own
+constexpr float kPlaneCos = 0.996f;  // up to 5°: of a plane, and of what is too small beside it to count
 constexpr float kKeptCos = 0.97f;  // normals up to 14° off stay as they are
 
 std::vector<Vec3> facesOf(const Mesh& mesh) {  // normals as long as twice the area
@@ -52,7 +53,8 @@ uint32_t withNormal(Mesh& mesh, uint32_t vertex, Vec3 normal) {
 }
 
 // The smooth normals of a ceiling's edge lean outwards, and vertices beside it stand upright. Without those the whole
-// ceiling would lean: where a corner's normal is far from those of the faces around it, it becomes their mean by area.
+// ceiling would lean: corners of planes take the mean normal of the faces around them, by area. What is round keeps its
+// own, which are better than those of coarse faces.
 void mendNormals(Mesh& mesh) {
   const std::vector<Vec3> faces = facesOf(mesh);
   std::vector<std::vector<uint32_t>> around(mesh.positions.size());
@@ -67,6 +69,7 @@ void mendNormals(Mesh& mesh) {
       if (dot(faces[f], own) >= kCreaseCos * length(faces[f]) * length(own)) sum += faces[f];
     }
     const Vec3 mean = normalize(sum), given = mesh.normals[vertex];
+    if (dot(mean, own) < kPlaneCos * length(own)) continue;
     // Some files have all normals the other way.
     if (std::abs(dot(mean, given)) >= kKeptCos * length(given)) continue;
     const Vec3 normal = dot(mean, given) < 0 ? -mean : mean;

@@ -10,7 +10,7 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr float kErrorM = 0.004f, kRadiusM = 0.1f;
+constexpr float kErrorM = 0.002f, kRadiusM = 0.1f;
 const Vec3 kMiddle{2, 1, 1.5f};
 
 // A ball of many triangles in a room. `x`: its extent along x, negative mirrors it.
@@ -57,8 +57,8 @@ std::pair<float, float> mostOff(float x) {
 TEST(HomePlaces, areOnTheHomeAsItIs) {
   for (const float x : {1.0f, -1.0f}) {
     const auto [simplified, put] = mostOff(x);
-    EXPECT_GT(simplified, 0.25f * kErrorM) << x;
-    EXPECT_LT(put, 0.1f * kErrorM) << x;
+    EXPECT_GT(simplified, 0.4f * kErrorM) << x;
+    EXPECT_LT(put, 0.2f * kErrorM) << x;  // by its own facets
   }
 }
 

@@ -60,7 +60,7 @@ TEST(Simplify, aPlaneKeepsUprightNormals) {
   for (const uint32_t i : mesh.indices) EXPECT_LT(mesh.normals[i].y, -0.999f) << mesh.positions[i].x;
 }
 
-// What is round stays as smooth as it was.
+// What is round stays as smooth as it was, but for single corners beside slivers.
 TEST(Simplify, aBallKeepsItsNormals) {
   Scene scene;
   addSphere(scene, {0, 0, 0}, 0.1f, addMaterial(scene, lambertian(0.5f)));
@@ -68,9 +68,9 @@ TEST(Simplify, aBallKeepsItsNormals) {
   mesh.normals.clear();
   for (const Vec3 p : mesh.positions) mesh.normals.push_back(normalize(p));
   const size_t vertices = mesh.positions.size(), triangles = mesh.triangleCount();
-  simplifyMeshes(scene, 0.001f);
-  EXPECT_LT(mesh.triangleCount(), triangles);
-  EXPECT_EQ(mesh.positions.size(), vertices);
+  simplifyMeshes(scene, 0.01f);
+  EXPECT_LT(mesh.triangleCount(), triangles / 4);
+  EXPECT_LE(mesh.positions.size(), vertices + vertices / 100);
 }
 
 TEST(Simplify, movesThinThingsLess) { EXPECT_GT(trianglesLeft(0.01f), 2 * trianglesLeft(0.5f)); }
