@@ -58,11 +58,10 @@ struct LaidOut {
   LitPlaces lit;  // on the home as it is
 };
 
-constexpr float kMostOff = 2;  // times what simplifying may move: its own bound is an estimate
-
 Result<LaidOut> layOut(const RayScene& home, const BakeSettings& settings, Stages& stages) {
   Scene scene = home.scene();
-  stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM), 0; });
+  const std::vector<float> moved =
+      stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM); });
   const RayScene rays(scene);
   const SeenSides seen = stages.run("seen", [&](const Progress&) {
     const std::vector<Vec3> eyes = eyesIn(rays);
@@ -72,8 +71,8 @@ Result<LaidOut> layOut(const RayScene& home, const BakeSettings& settings, Stage
     Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
     if (!atlas) return Error{atlas.error()};
     LitPlaces lit = litPlacesOf(atlas.value(), rays, seen, settings.placesApartM);
-    putOnHome(lit, home, scene, kMostOff * settings.simplifyM);
-    return LaidOut{scene, std::move(atlas.value()), std::move(lit)};
+    putOnHome(lit, home, moved);
+    return LaidOut{std::move(scene), std::move(atlas.value()), std::move(lit)};
   });
 }
 

@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -39,6 +40,17 @@ std::vector<Vec3> facesOf(const Mesh& mesh) {  // normals as long as twice the a
   return out;
 }
 
+using Corners = std::array<uint32_t, 3>;
+
+std::vector<Corners> cornersOf(const std::vector<uint32_t>& indices) {  // of each triangle, rising
+  std::vector<Corners> out;
+  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+    out.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    std::sort(out.back().begin(), out.back().end());
+  }
+  return out;
+}
+
 template <class T>
 void repeat(std::vector<T>& values, uint32_t i) {
   if (!values.empty()) values.push_back(T(values[i]));
@@ -55,15 +67,17 @@ uint32_t withNormal(Mesh& mesh, uint32_t vertex, Vec3 normal) {
 // The smooth normals of a ceiling's edge lean outwards, and vertices beside it stand upright. Without those the whole
 // ceiling would lean: corners of planes take the mean normal of the faces around them, by area. What is round keeps its
 // own, which are better than those of coarse faces.
-void mendNormals(Mesh& mesh) {
+// Triangles that are as they were, by `before`, stay so.
+void mendNormals(Mesh& mesh, const std::vector<Corners>& before) {
   const std::vector<Vec3> faces = facesOf(mesh);
   std::vector<std::vector<uint32_t>> around(mesh.positions.size());
   for (size_t i = 0; i < mesh.indices.size(); ++i) around[mesh.indices[i]].push_back(static_cast<uint32_t>(i / 3));
+  const std::vector<Corners> after = cornersOf(mesh.indices);
   std::map<std::tuple<uint32_t, float, float, float>, uint32_t> made;
   for (size_t i = 0; i < mesh.indices.size(); ++i) {
     const uint32_t vertex = mesh.indices[i];
     const Vec3 own = faces[i / 3];
-    if (!(length(own) > 0)) continue;
+    if (!(length(own) > 0) || std::binary_search(before.begin(), before.end(), after[i / 3])) continue;
     Vec3 sum;
     for (const uint32_t f : around[vertex]) {
       if (dot(faces[f], own) >= kCreaseCos * length(faces[f]) * length(own)) sum += faces[f];
@@ -83,13 +97,14 @@ float largestStretch(const Affine& a) { return std::max({length(a.x), length(a.y
 
 }  // namespace
 
-void simplifyMeshes(Scene& scene, float errorM) {
+std::vector<float> simplifyMeshes(Scene& scene, float errorM) {
   std::vector<float> stretch(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) {
     float& s = stretch[static_cast<size_t>(instance.mesh)];
     s = std::max(s, largestStretch(instance.worldFromObject));
   }
   const std::vector<float> thickness = thicknesses(scene);
+  std::vector<float> moved(scene.meshes.size(), 0);
   parallelFor(scene.meshes.size(), 1, [&](size_t i) {
     Mesh& mesh = scene.meshes[i];
     if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0)) return;
@@ -103,9 +118,12 @@ void simplifyMeshes(Scene& scene, float errorM) {
                          sizeof(Vec3), 0, most / (stretch[i] * scale), 0, nullptr);
     if (count == 0 || count == indices.size()) return;  // a thing as small as the error stays as it is
     indices.resize(count);
-    mesh.indices = std::move(indices);
-    if (!mesh.normals.empty()) mendNormals(mesh);
+    std::vector<Corners> before = cornersOf(mesh.indices);
+    std::sort(before.begin(), before.end());
+    mesh.indices = std::move(indices), moved[i] = most;
+    if (!mesh.normals.empty()) mendNormals(mesh, before);
   });
+  return moved;
 }
 
 }  // namespace roomlight::bake

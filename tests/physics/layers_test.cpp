@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "engine/render.h"
 #include "scene/primitives.h"
 #include "support/techniques.h"
@@ -208,25 +210,38 @@ std::vector<Rendered> seeded(const Scene& scene, const std::string& technique, b
   return out;
 }
 
-std::pair<Image, Image> references(const Scene& scene) {
-  RenderSettings s = settingsOf("path", 256);
-  s.seed = 17;
-  Image first = rendered(scene, s, false).image;
-  s.seed = 18;
-  return {std::move(first), rendered(scene, s, false).image};
+// Two pictures by paths that know nothing of layers.
+struct References {
+  explicit References(const Scene& scene) : first(of(scene, 17)), second(of(scene, 18)) {}
+  Image first, second;
+
+ private:
+  static Image of(const Scene& scene, uint64_t seed) {
+    RenderSettings s = settingsOf("path", 256);
+    s.seed = seed;
+    return rendered(scene, s, false).image;
+  }
+};
+
+const std::vector<std::string> kLights = {"Ceiling", "Red. \"spot\"", "Dim", "Globe", "sun", "sky"};
+
+std::vector<Image> imagesOf(const std::vector<Rendered>& layered, const std::string& light) {
+  std::vector<Image> out;
+  for (const Rendered& r : layered) out.push_back(layerOf(r, light).image);
+  return out;
 }
 
-// Each picture of `parts` and of `alone` against paths that know nothing of layers.
+// Each picture of `parts` and of `alone` against references of the latter.
 void expectSame(const std::string& technique, const std::string& name, const std::vector<Image>& parts,
-                const Scene& alone) {
-  const auto [first, second] = references(alone);
+                const Scene& alone, const References& references) {
   std::vector<Image> own;
   for (Rendered& r : seeded(alone, technique, false)) own.push_back(std::move(r.image));
-  const Trial layer = trialOf(parts, first, second), single = trialOf(own, first, second);
+  const Trial layer = trialOf(parts, references.first, references.second),
+              single = trialOf(own, references.first, references.second);
   fmt::print("{} {}: mean {:.4f} +- {:.4f}, block error {:.4f}; rendered alone {:.4f} +- {:.4f}, {:.4f}\n", technique,
              name, layer.mean, layer.meanError, layer.blocks, single.mean, single.meanError, single.blocks);
-  EXPECT_NEAR(layer.mean, 1, allowed(technique, layer)) << name;
-  EXPECT_NEAR(single.mean, 1, allowed(technique, single)) << name;
+  EXPECT_NEAR(layer.mean, 1, allowed(technique, layer)) << technique << ", " << name;
+  EXPECT_NEAR(single.mean, 1, allowed(technique, single)) << technique << ", " << name;
   // As little error as alone: 24 blocks of 8 seeds tell each root mean square to 5 %, their ratio to 7. Technique path
   // asks one lamp at a time, so its dim lamps have more (docs/methods/layers.md).
   if (technique == "hybrid") {
@@ -234,53 +249,59 @@ void expectSame(const std::string& technique, const std::string& name, const std
   }
 }
 
-TEST_P(Layers, eachIsThatLightAlone) {
-  const std::vector<Rendered> layered = seeded(home(), GetParam(), true);
-  for (const std::string name : {"Ceiling", "Red. \"spot\"", "Dim", "Globe", "sun", "sky"}) {
-    std::vector<Image> parts;
-    for (const Rendered& r : layered) parts.push_back(layerOf(r, name).image);
-    expectSame(GetParam(), name, parts, alone(name));
+std::vector<std::string> techniquesOfLayers() { return test::techniquesThatCan(&Technique::layers); }
+
+// Cells of the cache of hits know whose their light is.
+std::vector<Rendered> byCells() {
+  std::vector<Rendered> out;
+  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
+    RenderSettings s = settingsOf("hybrid");
+    s.seed = seed;
+    out.push_back(rendered(home(), s, true));
+  }
+  return out;
+}
+
+// All techniques in one test: references are most of the work.
+TEST(LayersOfTechniques, eachIsThatLightAlone) {
+  std::map<std::string, std::vector<Rendered>> layered;
+  for (const std::string& technique : techniquesOfLayers()) layered[technique] = seeded(home(), technique, true);
+  ASSERT_EQ(layered.size(), 2u);
+  const std::vector<Rendered> cells = byCells();
+  for (const std::string& name : kLights) {
+    const Scene lit = alone(name);
+    const References references(lit);
+    for (const auto& [technique, pictures] : layered)
+      expectSame(technique, name, imagesOf(pictures, name), lit, references);
+    const Trial cell = trialOf(imagesOf(cells, name), references.first, references.second);
+    fmt::print("with cells, {}: mean {:.4f} +- {:.4f}, block error {:.4f}\n", name, cell.mean, cell.meanError,
+               cell.blocks);
+    EXPECT_NEAR(cell.mean, 1, allowed("hybrid", cell)) << name;
   }
 }
 
-TEST_P(Layers, mixLikeDimmedLamps) {
+TEST(LayersOfTechniques, mixLikeDimmedLamps) {
   Scene dimmed = home();
   dimmed.suns.clear(), dimmed.sky = {};
   dimmed.lamps[0].intensityCd *= 0.2f;
   dimmed.lamps[1].intensityCd *= Vec3{0.5f, 2, 8};  // another colour
-  std::vector<Image> mixes;
-  for (const Rendered& layered : seeded(home(), GetParam(), true)) {
-    Image mix(kWidth, kHeight);
-    for (size_t i = 0; i < mix.pixels.size(); ++i) {
-      mix.pixels[i] = layerOf(layered, "Ceiling").image.pixels[i] * 0.2f +
-                      layerOf(layered, "Red. \"spot\"").image.pixels[i] * Vec3{0.5f, 2, 8} +
-                      layerOf(layered, "Dim").image.pixels[i] + layerOf(layered, "Globe").image.pixels[i];
+  const References references(dimmed);
+  for (const std::string& technique : techniquesOfLayers()) {
+    std::vector<Image> mixes;
+    for (const Rendered& layered : seeded(home(), technique, true)) {
+      Image mix(kWidth, kHeight);
+      for (size_t i = 0; i < mix.pixels.size(); ++i) {
+        mix.pixels[i] = layerOf(layered, "Ceiling").image.pixels[i] * 0.2f +
+                        layerOf(layered, "Red. \"spot\"").image.pixels[i] * Vec3{0.5f, 2, 8} +
+                        layerOf(layered, "Dim").image.pixels[i] + layerOf(layered, "Globe").image.pixels[i];
+      }
+      mixes.push_back(std::move(mix));
     }
-    mixes.push_back(std::move(mix));
-  }
-  expectSame(GetParam(), "mix", mixes, dimmed);
-}
-
-// Cells of the cache of hits know whose their light is.
-TEST(LayersOfCells, areThoseOfTheirLights) {
-  std::vector<Rendered> layered;
-  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
-    RenderSettings s = settingsOf("hybrid");
-    s.seed = seed;
-    layered.push_back(rendered(home(), s, true));
-  }
-  for (const std::string name : {"Ceiling", "Red. \"spot\"", "Dim", "Globe", "sun", "sky"}) {
-    std::vector<Image> parts;
-    for (const Rendered& r : layered) parts.push_back(layerOf(r, name).image);
-    const auto [first, second] = references(alone(name));
-    const Trial layer = trialOf(parts, first, second);
-    fmt::print("with cells, {}: mean {:.4f} +- {:.4f}, block error {:.4f}\n", name, layer.mean, layer.meanError,
-               layer.blocks);
-    EXPECT_NEAR(layer.mean, 1, allowed("hybrid", layer)) << name;
+    expectSame(technique, "mix", mixes, dimmed, references);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Layers, testing::ValuesIn(test::techniquesThatCan(&Technique::layers)),
+INSTANTIATE_TEST_SUITE_P(Techniques, Layers, testing::ValuesIn(techniquesOfLayers()),
                          [](const auto& which) { return which.param; });
 
 TEST(LayersOfManyLamps, addUpAndADimOneHasLittleMoreNoise) {
@@ -293,11 +314,12 @@ TEST(LayersOfManyLamps, addUpAndADimOneHasLittleMoreNoise) {
   const Rendered layered = rendered(scene, settings, true);
   ASSERT_EQ(layered.layers.size(), 13u);
   expectSum("hybrid", layered, rendered(scene, settings, false).image);
-  const auto [first, second] = references(alone("Dim"));
+  const References references(alone("Dim"));
   std::vector<Image> parts, own;
   for (const Rendered& r : seeded(scene, "hybrid", true)) parts.push_back(layerOf(r, "Dim").image);
   for (const Rendered& r : seeded(alone("Dim"), "hybrid", false)) own.push_back(r.image);
-  const Trial layer = trialOf(parts, first, second), single = trialOf(own, first, second);
+  const Trial layer = trialOf(parts, references.first, references.second),
+              single = trialOf(own, references.first, references.second);
   fmt::print("Dim among many: mean {:.4f}, block error {:.4f}; rendered alone {:.4f}\n", layer.mean, layer.blocks,
              single.blocks);
   // A lamp of a fiftieth of another's light gets fewer of the samples that twelve share: up to 1.45 times the error

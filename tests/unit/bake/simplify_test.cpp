@@ -73,6 +73,30 @@ TEST(Simplify, aBallKeepsItsNormals) {
   EXPECT_LE(mesh.positions.size(), vertices + vertices / 100);
 }
 
+// Leaves with normals of the crown, beside a ball that loses triangles.
+TEST(Simplify, whatLosesNothingKeepsItsNormals) {
+  Scene scene;
+  addSphere(scene, {0, 0, 0}, 0.1f, addMaterial(scene, lambertian(0.5f)));
+  Mesh& mesh = scene.meshes[0];
+  mesh.normals.clear();
+  for (const Vec3 p : mesh.positions) mesh.normals.push_back(normalize(p));
+  const Vec3 crown = normalize(Vec3(1, 1, 0));
+  const auto first = static_cast<uint32_t>(mesh.positions.size());
+  for (const Vec3 p : {Vec3(0.3f, 0, 0), Vec3(0.3f, 0, 0.1f), Vec3(0.4f, 0, 0.1f), Vec3(0.4f, 0, 0)})
+    mesh.positions.push_back(p), mesh.normals.push_back(crown);
+  for (const uint32_t i : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(first + i);
+  const size_t triangles = mesh.triangleCount();
+  EXPECT_GT(simplifyMeshes(scene, 0.01f)[0], 0);
+  EXPECT_LT(mesh.triangleCount(), triangles);
+  size_t leaves = 0;
+  for (const uint32_t i : mesh.indices) {
+    if (mesh.positions[i].x < 0.2f) continue;
+    ++leaves;
+    EXPECT_TRUE(mesh.normals[i] == crown);
+  }
+  EXPECT_EQ(leaves, 6u);
+}
+
 TEST(Simplify, movesThinThingsLess) { EXPECT_GT(trianglesLeft(0.01f), 2 * trianglesLeft(0.5f)); }
 
 }  // namespace

@@ -9,9 +9,10 @@ export interface PixelFormat {
   readonly samples: number;
 }
 
+// Infinity: the browser does not tell.
 function mostSamples(gl: WebGL2RenderingContext, format: number): number {
   const counts = gl.getInternalformatParameter(gl.RENDERBUFFER, format, gl.SAMPLES) as Int32Array | null;
-  return counts?.[0] ?? 0; // the largest comes first
+  return counts ? (counts[0] ?? 0) : Infinity; // the largest comes first
 }
 
 // Short floats where the chip draws into them with as many samples as into 16-bit ones, up to `wanted`.

@@ -2,8 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pixelFormat } from "../../baked/src/pixel_format.js";
 
-// A chip with so many samples of short and of half floats; none: it does not draw into them.
-function chip(short: readonly number[] | null, half: readonly number[]): WebGL2RenderingContext {
+// A chip with so many samples of short floats, null: it does not draw into them; and of half floats, null: it does not tell.
+function chip(short: readonly number[] | null, half: readonly number[] | null): WebGL2RenderingContext {
   return {
     RENDERBUFFER: 0x8d41,
     SAMPLES: 0x80a9,
@@ -11,7 +11,8 @@ function chip(short: readonly number[] | null, half: readonly number[]): WebGL2R
     getInternalformatParameter: (target: number, format: number, name: number) => {
       assert.equal(target, 0x8d41);
       assert.equal(name, 0x80a9);
-      return Int32Array.from(format === 0x8c3a ? (short ?? []) : format === 0x881a ? half : []);
+      const counts = format === 0x8c3a ? (short ?? []) : format === 0x881a ? half : [];
+      return counts && Int32Array.from(counts);
     },
   } as unknown as WebGL2RenderingContext;
 }
@@ -26,4 +27,5 @@ test("half floats where short ones have fewer samples or cannot be drawn into", 
   assert.deepEqual(pixelFormat(chip([], [4, 2]), 4), { short: false, samples: 4 });
   assert.deepEqual(pixelFormat(chip([2], [4]), 4), { short: false, samples: 4 });
   assert.deepEqual(pixelFormat(chip(null, [2]), 4), { short: false, samples: 2 });
+  assert.deepEqual(pixelFormat(chip(null, null), 4), { short: false, samples: 4 });
 });
