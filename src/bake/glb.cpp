@@ -321,7 +321,7 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
       layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux), out.lightBytes));
   }
   const std::vector<Camera> cameras = camerasInside(scene);
-  Json extension = {{"version", 1},
+  Json extension = {{"version", 2},
                     {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
                     {"layers", layers},
                     {"rooms", roomsJson(scene)},

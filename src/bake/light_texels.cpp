@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bake/predicted_texels.h"
+
 namespace roomlight::bake {
 namespace {
 
@@ -14,16 +16,6 @@ constexpr float kLargest = 65408;  // (2^9 - 1) / 2^9 * 2^16
 constexpr float kDarkLux = 0.01f;  // a tile that is nowhere brighter is left out
 
 float clipped(float v) { return v > 0 ? std::min(v, kLargest) : 0; }
-
-// Lowest bytes of all texels first: neighbours differ least in the highest.
-std::string byPlanes(std::span<const uint32_t> texels) {
-  std::string planes(texels.size() * 4, '\0');
-  for (size_t k = 0; k < 4; ++k) {
-    for (size_t i = 0; i < texels.size(); ++i)
-      planes[k * texels.size() + i] = static_cast<char>(texels[i] >> (8 * k) & 0xff);
-  }
-  return planes;
-}
 
 float scaleOf(const Image& light) {
   float most = 0;
@@ -74,7 +66,7 @@ LightTexels lightTexels(const Image& light, int tile) {
     out.tiles.push_back(static_cast<uint32_t>(t));
     addTile(light, tile, static_cast<uint32_t>(t), out.scale, texels);
   }
-  out.stream = deflated(byPlanes(texels));
+  out.stream = deflated(predictedPlanes(texels, tile, tile));
   return out;
 }
 
@@ -84,7 +76,7 @@ LightTexels lightTexels(const Image& picture) {
   std::vector<uint32_t> texels;
   for (const Vec3 v : picture.pixels) texels.push_back(rgb9e5(v / out.scale));
   out.tiles = {0};
-  out.stream = deflated(byPlanes(texels));
+  out.stream = deflated(predictedPlanes(texels, picture.width, picture.height));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// The light of one layer as a stream of texels (docs/reference/baked.md): RGB9_E5 in tiles, by byte planes, deflated.
+// The light of one layer as a stream of texels (docs/reference/baked.md): RGB9_E5 in tiles, predicted, deflated.
 #pragma once
 
 #include <cstdint>

@@ -110,7 +110,7 @@ double lightIn(const std::string& glb) {
   const auto tile = json["extensions"]["ROOMLIGHT_light_layers"]["atlas"]["tile"].get<size_t>();
   double sum = 0;
   for (const uint32_t texel : texelsOf(bytes.substr(view["byteOffset"].get<size_t>(), view["byteLength"].get<size_t>()),
-                                       light["tiles"].size() * tile * tile))
+                                       light["tiles"].size() * tile * tile, tile, tile))
     sum += static_cast<double>(luminance(fromRgb9e5(texel)));
   return sum * light["scale"].get<double>();
 }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
+#include "bake/predicted_texels.h"
 #include "base/random.h"
 #include "unit/bake/texels_of.h"
 
@@ -35,11 +37,27 @@ TEST(LightTexels, sunlightIsScaledAndDarkTilesAreLeftOut) {
   const LightTexels texels = lightTexels(light, 32);
   EXPECT_EQ(texels.tiles, std::vector<uint32_t>{1});
   EXPECT_EQ(texels.scale, 2);
-  const std::vector<uint32_t> back = texelsOf(texels.stream, 32 * 32);
+  const std::vector<uint32_t> back = texelsOf(texels.stream, 32 * 32, 32, 32);
   const Vec3 first = fromRgb9e5(back[0]) * texels.scale, last = fromRgb9e5(back.back()) * texels.scale;
   EXPECT_NEAR(first.x, 90000, 180);
   EXPECT_NEAR(first.y, 80000, 180);
   EXPECT_NEAR(last.z, 63, 180);
+}
+
+// What is smooth, what is noise, the ends of all ranges; three tiles that are not square.
+TEST(LightTexels, predictedOnesComeBackBitByBit) {
+  constexpr int kWidth = 24, kHeight = 16;
+  Rng random(7, 8, 9);
+  std::vector<uint32_t> texels;
+  for (int i = 0; i < 3 * kWidth * kHeight; ++i) {
+    const int tile = i / (kWidth * kHeight);
+    const float x = static_cast<float>(i % kWidth), y = static_cast<float>(i / kWidth);
+    const Vec3 smooth = Vec3(1, 0.8f, 0.3f) * std::exp2((x - y) / 3);
+    const auto noise = static_cast<uint32_t>(random.uniform() * 4294967040.0f);
+    texels.push_back(tile == 0 ? rgb9e5(smooth) : tile == 1 ? noise : (i % 5 < 2 ? 0 : i % 5 == 2 ? 0xffffffff : 511));
+  }
+  const std::string planes = predictedPlanes(texels, kWidth, kHeight);
+  EXPECT_TRUE(texelsOf(deflated(planes), texels.size(), kWidth, kHeight) == texels);
 }
 
 TEST(LightTexels, sumsOfManyLayersStayWithinOnePercent) {

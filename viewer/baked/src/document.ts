@@ -158,13 +158,14 @@ export type Room = Home["rooms"][number];
 export type Camera = Home["cameras"][number];
 export type ToneName = Home["display"]["tone"];
 
+const kVersion = 2; // that bake writes
 const versionOnly = v.object({ extensions: v.object({ ROOMLIGHT_light_layers: v.object({ version: whole }) }) });
 
 export function checkDocument(json: unknown): Gltf {
   const probed = v.safeParse(versionOnly, json);
   if (!probed.success) throw new BadFile("foreign", "ROOMLIGHT_light_layers");
   const { version } = probed.output.extensions.ROOMLIGHT_light_layers;
-  if (version !== 1) throw new BadFile("newer", `ROOMLIGHT_light_layers ${version}`);
+  if (version !== kVersion) throw new BadFile("newer", `ROOMLIGHT_light_layers ${version}`);
   try {
     const document = check(gltf, json);
     checkTiles(document.extensions.ROOMLIGHT_light_layers);

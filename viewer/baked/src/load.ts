@@ -7,7 +7,7 @@ import { parseGlb } from "./glb.js";
 import { expanded } from "./meshopt.js";
 import type { Stage } from "./stage.js";
 import type { TextureSource } from "./surfaces.js";
-import { inflate, joinPlanes } from "./texels.js";
+import { inflate, unpackTexels } from "./texels.js";
 
 export interface LoadedHome {
   readonly document: Gltf;
@@ -115,8 +115,12 @@ export async function loadLight(
     const planes = (await next)!;
     next = start(done + 1);
     const texels = stage.light.texelsFor(light.tiles.length);
-    if (light.tiles.length > 0) stage.light.add(i, light.tiles, joinPlanes(planes.light, texels), light.scale);
-    if (panorama && planes.sky) stage.sky.add(i, joinPlanes(planes.sky), panorama.width, panorama.scale);
+    if (light.tiles.length > 0)
+      stage.light.add(i, light.tiles, unpackTexels(planes.light, atlas.tile, atlas.tile, texels), light.scale);
+    if (panorama && planes.sky) {
+      const sky = unpackTexels(planes.sky, panorama.width, panorama.height);
+      stage.sky.add(i, sky, panorama.width, panorama.scale);
+    }
     came(i, (done + 1) / order.length);
   }
 }

@@ -1,4 +1,4 @@
-// Texels of light: zlib streams of RGB9_E5 in four planes of bytes, lowest first (docs/reference/baked.md, light).
+// Texels of light: zlib streams of RGB9_E5 as what differs from a prediction (docs/reference/baked.md, light).
 import { BadFile } from "./bad_file.js";
 import type { Vec3 } from "../../src/vector.js";
 
@@ -24,24 +24,46 @@ export async function inflate(bytes: Uint8Array, expectedBytes: number, what: st
   return out;
 }
 
-// Planes of bytes to texels; behind them zeros up to `length`.
-export function joinPlanes(planes: Uint8Array, length = planes.length / 4): Uint32Array<ArrayBuffer> {
+const kMost = 511; // of a mantissa of 9 bits
+
+// Texels of tiles of `width` x `height` from planes of bytes: differences of green, red, blue, and of the exponent with
+// their highest bits. Behind them zeros up to `length`.
+export function unpackTexels(
+  planes: Uint8Array,
+  width: number,
+  height: number,
+  length = planes.length / 4,
+): Uint32Array<ArrayBuffer> {
   const count = planes.length / 4;
   const texels = new Uint32Array(length);
-  const low = planes.subarray(0, count);
-  const second = planes.subarray(count, 2 * count);
-  const third = planes.subarray(2 * count, 3 * count);
-  const high = planes.subarray(3 * count);
-  for (let i = 0; i < count; ++i) texels[i] = low[i]! | (second[i]! << 8) | (third[i]! << 16) | (high[i]! << 24);
+  const unfold = (n: number) => (n >>> 1) ^ -(n & 1);
+  for (let i = 0; i < count; ++i) {
+    const x = i % width;
+    const y = Math.floor(i / width) % height;
+    const last = planes[3 * count + i]!;
+    const beside = x > 0 ? texels[i - 1]! : y > 0 ? texels[i - width]! : 0;
+    const exponent = ((beside >>> 27) + unfold(last >>> 3)) & 31;
+    // As it would be with this exponent.
+    const greenOf = (texel: number) => {
+      const green = (texel >>> 9) & 511;
+      const up = (texel >>> 27) - exponent;
+      return up >= 0 ? Math.min(green << Math.min(up, 9), kMost) : green >>> Math.min(-up, 9);
+    };
+    let predicted = greenOf(beside);
+    if (x > 0 && y > 0) {
+      const above = greenOf(texels[i - width]!);
+      const sum = predicted + above - greenOf(texels[i - width - 1]!);
+      predicted = Math.min(Math.max(sum, Math.min(predicted, above)), Math.max(predicted, above));
+    }
+    const green = (predicted + unfold(planes[i]! | ((last & 1) << 8))) & 511;
+    const greenBeside = (beside >>> 9) & 511;
+    const byRatio = (channel: number) =>
+      greenBeside > 0 ? Math.min(Math.floor((green * channel + (greenBeside >> 1)) / greenBeside), kMost) : green;
+    const red = (byRatio(beside & 511) + unfold(planes[count + i]! | ((last & 2) << 7))) & 511;
+    const blue = (byRatio((beside >>> 18) & 511) + unfold(planes[2 * count + i]! | ((last & 4) << 6))) & 511;
+    texels[i] = red | (green << 9) | (blue << 18) | (exponent << 27);
+  }
   return texels;
-}
-
-export function splitPlanes(texels: Uint32Array): Uint8Array {
-  const planes = new Uint8Array(4 * texels.length);
-  texels.forEach((texel, i) => {
-    for (let plane = 0; plane < 4; ++plane) planes[plane * texels.length + i] = texel >>> (8 * plane);
-  });
-  return planes;
 }
 
 export function decodeTexel(texel: number): Vec3 {

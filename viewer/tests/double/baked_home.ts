@@ -1,7 +1,8 @@
 // A small baked home as roomlight bake writes it: a white box room with two lamps, and sun and sky of two hours. Every
 // layer has the same illuminance everywhere, so that what is seen can be reckoned by hand.
 import { deflateSync } from "node:zlib";
-import { encodeTexel, splitPlanes } from "../../baked/src/texels.js";
+import { encodeTexel } from "../../baked/src/texels.js";
+import { packTexels } from "./pack_texels.js";
 import type { Vec3 } from "../../src/vector.js";
 import { encodePng } from "./png.js";
 
@@ -124,10 +125,16 @@ class Binary {
   }
 }
 
-const texels = (lux: Vec3, count: number, scale: number, bright?: readonly [number, number]): Uint8Array => {
+const texels = (
+  lux: Vec3,
+  [width, height, tiles]: Vec3,
+  scale: number,
+  bright?: readonly [number, number],
+): Uint8Array => {
+  const count = width * height * tiles;
   const encoded = (times: number) => encodeTexel(lux.map(c => (times * c) / scale) as unknown as Vec3);
   const all = new Uint32Array(count).fill(encoded(1));
-  return deflateSync(splitPlanes(bright ? all.fill(encoded(5), ...bright) : all));
+  return deflateSync(packTexels(bright ? all.fill(encoded(5), ...bright) : all, width, height));
 };
 
 function normalPng(normal: Vec3): Uint8Array {
@@ -166,7 +173,7 @@ export function bakedHome(options: Options = {}): Uint8Array {
   for (let i = 0; i < count; ++i) lit[4 * i] = vertexLit ? 1 : 0;
   const light = (lux: Vec3) => ({
     bufferView: binary.add(
-      texels(lux, 6 * kTile ** 2, kScale, brightWall ? [2 * kTile ** 2, 3 * kTile ** 2] : undefined),
+      texels(lux, [kTile, kTile, 6], kScale, brightWall ? [2 * kTile ** 2, 3 * kTile ** 2] : undefined),
     ),
     scale: kScale,
     tiles: [0, 1, 2, 3, 4, 5],
@@ -202,7 +209,12 @@ export function bakedHome(options: Options = {}): Uint8Array {
         hour,
         on: false,
         light: light(kSkyLux[i]!),
-        panorama: { bufferView: binary.add(texels([900, 1000, 1200], 32 * 16, 1)), width: 32, height: 16, scale: 1 },
+        panorama: {
+          bufferView: binary.add(texels([900, 1000, 1200], [32, 16, 1], 1)),
+          width: 32,
+          height: 16,
+          scale: 1,
+        },
       },
     ]),
   ];
@@ -246,7 +258,7 @@ export function bakedHome(options: Options = {}): Uint8Array {
     extensionsUsed: ["ROOMLIGHT_light_layers", "KHR_materials_specular"],
     extensions: {
       ROOMLIGHT_light_layers: {
-        version: 1,
+        version: 2,
         atlas: kAtlas,
         layers,
         hour: 12,

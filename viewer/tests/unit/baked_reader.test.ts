@@ -6,9 +6,10 @@ import { checkDocument, viewBytes } from "../../baked/src/document.js";
 import { readGeometry } from "../../baked/src/geometry.js";
 import { parseGlb } from "../../baked/src/glb.js";
 import { decodeBase64 } from "../../baked/src/source.js";
-import { decodeTexel, encodeTexel, inflate, joinPlanes, splitPlanes } from "../../baked/src/texels.js";
+import { decodeTexel, encodeTexel, inflate, unpackTexels } from "../../baked/src/texels.js";
 import type { Vec3 } from "../../src/vector.js";
 import { bakedHome, glb, kLampLux } from "../double/baked_home.js";
+import { packTexels } from "../double/pack_texels.js";
 import { nearAll } from "./near.js";
 
 const isFault = (fault: string) => (error: unknown) => error instanceof BadFile && error.fault === fault;
@@ -38,10 +39,17 @@ test("values of RGB9_E5 come back within half a step", () => {
   nearAll(decodeTexel((24 << 27) | (3 << 18) | (2 << 9) | 1), [1, 2, 3]);
 });
 
-test("planes of bytes are joined to texels", () => {
-  const texels = Uint32Array.from([0x04030201, 0xfffefdfc, 7]);
-  assert.deepEqual([...splitPlanes(texels).subarray(0, 4)], [1, 0xfc, 7, 2]);
-  assert.deepEqual([...joinPlanes(splitPlanes(texels), 4)], [...texels, 0]);
+test("texels come back from what differs from predictions", () => {
+  const [width, height] = [7, 5];
+  let seed = 1;
+  const random = () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0);
+  const texels = Uint32Array.from({ length: 4 * width * height }, (_, i) => {
+    const tile = Math.floor(i / (width * height));
+    if (tile === 0) return encodeTexel([2 ** (i % width), 0.7 * 2 ** (i % width), 0.2 * i]);
+    return tile === 1 ? random() : i % 3 ? 0xffffffff : i % 2;
+  });
+  assert.deepEqual([...unpackTexels(packTexels(texels, width, height), width, height)], [...texels]);
+  assert.equal(unpackTexels(packTexels(texels, width, height), width, height, 200)[199], 0);
 });
 
 test("a stream of the wrong length or a damaged one is a fault", async () => {
@@ -70,7 +78,8 @@ test("a baked home is read: its layers, rooms, cameras and light", async () => {
   );
   const { light } = home.layers[1]!;
   const size = 4 * home.atlas.tile ** 2 * light.tiles.length;
-  const texels = joinPlanes(await inflate(viewBytes(document, binary, light.bufferView), size, "light"));
+  const planes = await inflate(viewBytes(document, binary, light.bufferView), size, "light");
+  const texels = unpackTexels(planes, home.atlas.tile, home.atlas.tile);
   nearAll(decodeTexel(texels[5000]!).map(c => c * light.scale) as unknown as Vec3, kLampLux[1]!, 1e-6);
 });
 
@@ -119,7 +128,7 @@ test("files that are cut, damaged, foreign or newer say so", () => {
   assert.throws(() => read(glb({ asset: {} }, new Uint8Array())), isFault("foreign"));
   type Json = { extensions: { ROOMLIGHT_light_layers: { version: number; layers: { light: { tiles: number[] } }[] } } };
   const edit = (change: (json: Json) => void) => changed(json => change(json as unknown as Json));
-  assert.throws(() => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.version = 2))), isFault("newer"));
+  assert.throws(() => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.version = 3))), isFault("newer"));
   assert.throws(
     () => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.layers[0]!.light.tiles = [8]))),
     error => {
