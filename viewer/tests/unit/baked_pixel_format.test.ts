@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pixelFormat } from "../../baked/src/pixel_format.js";
 
-// A chip with so many samples of short floats, null: it does not draw into them; and of half floats, null: it does not tell.
+// A chip with so many samples of short floats, null: it does not draw into them; and of half floats, null: it does not
+// tell.
 function chip(short: readonly number[] | null, half: readonly number[] | null): WebGL2RenderingContext {
   return {
     RENDERBUFFER: 0x8d41,
