@@ -60,13 +60,20 @@ TEST(Simplify, aPlaneKeepsUprightNormals) {
   for (const uint32_t i : mesh.indices) EXPECT_LT(mesh.normals[i].y, -0.999f) << mesh.positions[i].x;
 }
 
-// What is round stays as smooth as it was, but for single corners beside slivers.
-TEST(Simplify, aBallKeepsItsNormals) {
+// Shaded smoothly.
+Scene ball() {
   Scene scene;
   addSphere(scene, {0, 0, 0}, 0.1f, addMaterial(scene, lambertian(0.5f)));
   Mesh& mesh = scene.meshes[0];
   mesh.normals.clear();
   for (const Vec3 p : mesh.positions) mesh.normals.push_back(normalize(p));
+  return scene;
+}
+
+// What is round stays as smooth as it was, but for single corners beside slivers.
+TEST(Simplify, aBallKeepsItsNormals) {
+  Scene scene = ball();
+  Mesh& mesh = scene.meshes[0];
   const size_t vertices = mesh.positions.size(), triangles = mesh.triangleCount();
   simplifyMeshes(scene, 0.01f);
   EXPECT_LT(mesh.triangleCount(), triangles / 4);
@@ -75,11 +82,8 @@ TEST(Simplify, aBallKeepsItsNormals) {
 
 // Leaves with normals of the crown, beside a ball that loses triangles.
 TEST(Simplify, whatLosesNothingKeepsItsNormals) {
-  Scene scene;
-  addSphere(scene, {0, 0, 0}, 0.1f, addMaterial(scene, lambertian(0.5f)));
+  Scene scene = ball();
   Mesh& mesh = scene.meshes[0];
-  mesh.normals.clear();
-  for (const Vec3 p : mesh.positions) mesh.normals.push_back(normalize(p));
   const Vec3 crown = normalize(Vec3(1, 1, 0));
   const auto first = static_cast<uint32_t>(mesh.positions.size());
   for (const Vec3 p : {Vec3(0.3f, 0, 0), Vec3(0.3f, 0, 0.1f), Vec3(0.4f, 0, 0.1f), Vec3(0.4f, 0, 0)})

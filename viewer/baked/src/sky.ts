@@ -20,16 +20,19 @@ const kSumFragment = `
     outColor = vec4(min(texelFetch(uTexels, p, 0).rgb * uFactor, 65000.0), 1.0);
   }`;
 
-const kBoxVertex = `
+// One triangle over all of the screen, behind everything. A box around the eye would have corners at its side, w = 0,
+// whose faces came before walls.
+const kBehindVertex = `
   in vec3 position;
   uniform mat4 viewMatrix, projectionMatrix;
   out vec3 vDirection;
   void main() {
-    vDirection = position;
-    gl_Position = (projectionMatrix * vec4(mat3(viewMatrix) * position, 1.0)).xyww;
+    vec4 far = inverse(projectionMatrix * mat4(mat3(viewMatrix))) * vec4(position.xy, 1.0, 1.0);
+    vDirection = far.xyz / far.w;
+    gl_Position = vec4(position.xy, 1.0, 1.0);
   }`;
 // `finish` is the function of the surfaces that brings radiance to the target.
-const kBoxFragment = (finish: string) => `
+const kBehindFragment = (finish: string) => `
   precision highp float;
   precision highp int;
   precision highp sampler2D;
@@ -66,13 +69,15 @@ export class Sky {
     });
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
-      vertexShader: kBoxVertex,
-      fragmentShader: kBoxFragment(finish),
+      vertexShader: kBehindVertex,
+      fragmentShader: kBehindFragment(finish),
       uniforms: { ...uniforms, uSky: { value: this.target.texture } },
-      side: THREE.BackSide,
+      side: THREE.DoubleSide, // the eyes of a probe are mirrored
       depthWrite: false,
     });
-    this.mesh = new THREE.Mesh(new THREE.BoxGeometry(2, 2, 2), material);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    this.mesh = new THREE.Mesh(geometry, material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = 1; // behind what is solid, before panes
   }

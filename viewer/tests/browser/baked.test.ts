@@ -107,6 +107,15 @@ test("what is bright keeps its colour where light is balanced far from white", {
   await visit.end();
 });
 
+// A box of sky around the eye had corners beside it then, where its faces came before the walls.
+test("walls are before the sky where the eye looks along a diagonal", { skip }, async () => {
+  for (const yaw of [45, -45]) {
+    const visit = await opened(`${home}#eye=2,1.6,2.5,${yaw},0,60&ev=${kEv100}`);
+    await shows(visit, shown(kLampLux[0]!), `turned by ${yaw} degrees`);
+    await visit.end();
+  }
+});
+
 test("a mirror of a floor shows the walls", { skip }, async () => {
   const visit = await opened(`${writePage("mirror", bakedHome({ glossy: true }))}#eye=2,1.6,4,0,-40,60&ev=${kEv100}`);
   const seen = await visit.color(320, 400);
