@@ -49,7 +49,7 @@ function(roomlight_unity target)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   get_target_property(sources ${target} SOURCES)
   list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
-  execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/cmake/unity_groups.py 10 ${CMAKE_SOURCE_DIR}/src:${CMAKE_SOURCE_DIR}/apps ${sources}
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/cmake/unity_groups.py 10 ${CMAKE_SOURCE_DIR}/src:${CMAKE_SOURCE_DIR}/apps:${CMAKE_SOURCE_DIR}/tests ${sources}
     OUTPUT_VARIABLE groups COMMAND_ERROR_IS_FATAL ANY)
   foreach(group ${groups})
     string(REPLACE "=" ";" group ${group})

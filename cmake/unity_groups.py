@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Which source files can be compiled together: prints "file=group;file=group" for cmake's UNITY_GROUP.
 
-Files of a group are compiled as one, which parses headers once. Helpers in anonymous namespaces then share a scope, so files that
-declare a name twice are kept apart, also where one is in a header that a file alone would not see; files that define
-macros or open namespaces (`using namespace`) stay alone.
+Files of a group are compiled as one, which parses headers once. Helpers in anonymous namespaces then share a scope, so a file that
+has a helper and one that says the same word are kept apart, also where it is in a header that a file alone would not see. So are
+files that take a name from another namespace (`using a::name`) where others mean something else by it. Files that define macros or
+open namespaces (`using namespace`) stay alone.
 Usage: unity_groups.py FILES_A_GROUP INCLUDE_FOLDER[:INCLUDE_FOLDER...] FILE...
 """
 import functools
@@ -15,7 +16,8 @@ KEYWORDS = {"TEST", "TEST_F", "TEST_P", "if", "for", "while", "switch", "return"
 TYPE = re.compile(r"(?:struct|class|union|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+)")
 ALIAS = re.compile(r"(?:using|namespace)\s+(\w+)\s*=")
 OTHER = re.compile(r"^[^(={;\[]*?(\w+)\s*[(={;\[]")
-ALONE = re.compile(r"^(\s*#\s*(define|undef)\b|using\s[^=;]*;)", re.M)
+ALONE = re.compile(r"^(\s*#\s*(define|undef)\b|using\s+namespace\b)", re.M)
+USED = re.compile(r"^using\s+([^=;]*);", re.M)
 NEXT = re.compile(r",\s*(\w+)\s*=")
 
 
@@ -65,9 +67,23 @@ def headers(file, folders, found=None):
     return found
 
 
+def words(text):
+    """What a file says but for comments, texts, members and names of namespaces."""
+    text = re.sub(r'//.*|"(?:[^"\\\n]|\\.)*"', " ", text)
+    return set(re.findall(r"(?<![\w.>:])[A-Za-z_]\w*", text))
+
+
+def used(text):
+    """Names taken from other namespaces, and what they stand for."""
+    return {name.split("::")[-1].strip(): name.strip() for line in USED.findall(text) for name in line.split(",")}
+
+
 def fit(a, b):
     """Whether no helper of one file meets a name of the other, or of a header that only the other includes."""
-    return not (a["own"] & b["own"] or a["own"] & (b["seen"] - a["seen"]) or b["own"] & (a["seen"] - b["seen"]))
+    if a["own"] & b["words"] or b["own"] & a["words"] or any(b["used"].get(name, whole) != whole for name, whole in a["used"].items()):
+        return False
+    return not any((one["own"] | one["used"].keys()) & (other["seen"] - one["seen"]) or one["used"].keys() & other["own"]
+                   for one, other in ((a, b), (b, a)))
 
 
 def main():
@@ -77,7 +93,7 @@ def main():
         text = pathlib.Path(path).read_text()
         if ALONE.search(text):
             continue
-        file = {"own": names(text), "seen": set().union(*map(declared_in, headers(pathlib.Path(path), folders)))}
+        file = {"own": names(text), "words": words(text), "used": used(text), "seen": set().union(*map(declared_in, headers(pathlib.Path(path), folders)))}
         number = next((i for i, group in enumerate(groups) if len(group) < most and all(fit(file, other) for other in group)), len(groups))
         if number == len(groups):
             groups.append([])
