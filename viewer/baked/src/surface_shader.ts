@@ -41,7 +41,7 @@ export const kSurfaceVertex = `
   uniform sampler2D uLight, uSurfaces;
   out vec3 vPosition, vNormal;
   centroid out vec2 vLightUv;
-  out vec3 vLight;
+  centroid out vec3 vLight;
   flat out int vLit; // above zero: light is that of the vertices
   // The material: fewer vertices than pixels ask for it.
   flat out vec4 vBase; // alpha: 1 - share that passes a pane
@@ -100,7 +100,8 @@ export const kSurfaceFragment = `
   #ifdef HAS_EMISSION
     uniform sampler2D uEmission;
   #endif
-  in vec3 vPosition, vNormal, vLight;
+  in vec3 vPosition, vNormal;
+  centroid in vec3 vLight; // beyond the edge of a triangle it could be below zero
   centroid in vec2 vLightUv;
   flat in int vLit;
   flat in vec4 vBase, vEmission, vGloss, vF0;
@@ -137,8 +138,10 @@ export const kSurfaceFragment = `
     return vPosition + direction * min(far.x, min(far.y, far.z)) - uProbeAt;
   }
 
-  // Radiance that the probe has for a reflection. What is lit otherwise than the middle of the room, in other rooms or
-  // in corners, is given a share after its own light. What is rough reflects as it is lit, without a look at the probe.
+  // Radiance that the probe has for a reflection. What is lit otherwise than the middle of another room than the probe's
+  // is given a share after its own light. In its own room the probe knows better: rough places in dark corners reflect
+  // less, but what a lamp lights strongly does not reflect more. What is very rough reflects as it is lit, without a look
+  // at the probe.
   vec3 reflected(vec3 n, vec3 v, float roughness, vec3 lux) {
     #ifdef PROBE
       if (!uReflect || roughness >= kRough) return lux / kPi;
@@ -147,7 +150,8 @@ export const kSurfaceFragment = `
       vec3 radiance = textureCubeUV(uProbe, normalize(seenFromProbe(r, inside)), roughness).rgb * ${kUnit.toFixed(1)};
       vec3 around = textureCubeUV(uProbe, n, 1.0).rgb * ${kUnit.toFixed(1)};
       float share = min(luminance(lux) / max(luminance(around) * kPi, 1e-4), 4.0);
-      vec3 seen = radiance * mix(share, 1.0, inside * (1.0 - smoothstep(0.1, 0.6, roughness)));
+      float corner = mix(1.0, min(share, 1.0), smoothstep(0.1, 0.6, roughness));
+      vec3 seen = radiance * mix(share, corner, inside);
       return mix(seen, lux / kPi, smoothstep(0.6, kRough, roughness));
     #else
       return lux / kPi;
@@ -206,7 +210,7 @@ export const kSurfaceFragment = `
     #ifdef HAS_EMISSION
       emission.rgb *= texture(uEmission, vUv).rgb;
     #endif
-    vec3 lux = (vLit > 0 ? vLight : texture(uLight, vLightUv).rgb) * ${kUnit.toFixed(1)};
+    vec3 lux = max(vLit > 0 ? vLight : texture(uLight, vLightUv).rgb, 0.0) * ${kUnit.toFixed(1)};
     vec3 v = normalize(cameraPosition - vPosition);
     vec3 n = shadingNormal();
     if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
