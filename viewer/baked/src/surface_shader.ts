@@ -138,10 +138,10 @@ export const kSurfaceFragment = `
     return vPosition + direction * min(far.x, min(far.y, far.z)) - uProbeAt;
   }
 
-  // Radiance that the probe has for a reflection. What is lit otherwise than the middle of another room than the probe's
-  // is given a share after its own light. In its own room the probe knows better: rough places in dark corners reflect
-  // less, but what a lamp lights strongly does not reflect more. What is very rough reflects as it is lit, without a look
-  // at the probe.
+  // Radiance that the probe has for a reflection. What is lit otherwise than the middle of another room than the
+  // probe's is given a share after its own light. In its own room the probe knows better: rough places in dark corners
+  // reflect less, but what a lamp lights strongly does not reflect more. What is very rough reflects as it is lit,
+  // without a look at the probe.
   vec3 reflected(vec3 n, vec3 v, float roughness, vec3 lux) {
     #ifdef PROBE
       if (!uReflect || roughness >= kRough) return lux / kPi;
