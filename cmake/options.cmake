@@ -48,6 +48,12 @@ function(roomlight_unity target)
   endif()
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   get_target_property(sources ${target} SOURCES)
+  foreach(file ${sources})
+    get_source_file_property(taken ${file} UNITY_GROUP)
+    if(taken)
+      return()  # groups are of files, not of targets: two targets that share one would change each other's
+    endif()
+  endforeach()
   list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/cmake/unity_groups.py 10 ${CMAKE_SOURCE_DIR}/src:${CMAKE_SOURCE_DIR}/apps:${CMAKE_SOURCE_DIR}/tests ${sources}
     OUTPUT_VARIABLE groups COMMAND_ERROR_IS_FATAL ANY)

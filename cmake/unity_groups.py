@@ -3,8 +3,8 @@
 
 Files of a group are compiled as one, which parses headers once. Helpers in anonymous namespaces then share a scope, so a file that
 has a helper and one that says the same word are kept apart, also where it is in a header that a file alone would not see. So are
-files that take a name from another namespace (`using a::name`) where others mean something else by it. Files that define macros or
-open namespaces (`using namespace`) stay alone.
+files that take a name from another namespace (`using a::name`) and those that say that word without it. Files that define macros or
+open namespaces (`using namespace`) stay alone. Not seen are overloads: a header's that one file lacks, or an operator's.
 Usage: unity_groups.py FILES_A_GROUP INCLUDE_FOLDER[:INCLUDE_FOLDER...] FILE...
 """
 import functools
@@ -18,6 +18,7 @@ ALIAS = re.compile(r"(?:using|namespace)\s+(\w+)\s*=")
 OTHER = re.compile(r"^[^(={;\[]*?(\w+)\s*[(={;\[]")
 ALONE = re.compile(r"^(\s*#\s*(define|undef)\b|using\s+namespace\b)", re.M)
 USED = re.compile(r"^using\s+([^=;]*);", re.M)
+CONTINUED = re.compile(r"\s+(k[A-Z]\w*)\s*[={,]")  # a constant, on a line after its type's
 NEXT = re.compile(r",\s*(\w+)\s*=")
 
 
@@ -39,6 +40,8 @@ def names(text):
             anonymous = True
         elif anonymous and line.startswith("}") and re.match(r"\}\s*// namespace$", line):
             anonymous = False
+        elif anonymous and (constant := CONTINUED.match(line)):
+            found.add(constant.group(1))
         elif re.match(r"\w", line) and (anonymous or line.startswith("static ")):
             found |= declared(line)
     return found
@@ -69,6 +72,7 @@ def headers(file, folders, found=None):
 
 def words(text):
     """What a file says but for comments, texts, members and names of namespaces."""
+    text = re.sub(r"""R"\w*\(.*?\)\w*"|'(?:[^'\\\n]|\\.)'""", " ", text, flags=re.S)
     text = re.sub(r'//.*|"(?:[^"\\\n]|\\.)*"', " ", text)
     return set(re.findall(r"(?<![\w.>:])[A-Za-z_]\w*", text))
 
@@ -82,7 +86,7 @@ def fit(a, b):
     """Whether no helper of one file meets a name of the other, or of a header that only the other includes."""
     if a["own"] & b["words"] or b["own"] & a["words"] or any(b["used"].get(name, whole) != whole for name, whole in a["used"].items()):
         return False
-    return not any((one["own"] | one["used"].keys()) & (other["seen"] - one["seen"]) or one["used"].keys() & other["own"]
+    return not any(one["own"] & (other["seen"] - one["seen"]) or one["used"].keys() & (other["words"] | other["own"]) - other["used"].keys()
                    for one, other in ((a, b), (b, a)))
 
 

@@ -127,21 +127,21 @@ export const kSurfaceFragment = `
   }
 
   // Where a ray from the surface leaves the room, as seen from the probe (parallax correction, Lagarde 2012).
+  // inside: 1 in the room, falling to 0 within half a metre of it.
   vec3 seenFromProbe(vec3 direction, out float inside) {
     vec3 margin = vec3(0.02);
-    bvec3 above = greaterThanEqual(vPosition, uRoomLow - margin);
-    bvec3 below = lessThanEqual(vPosition, uRoomHigh + margin);
-    inside = all(above) && all(below) ? 1.0 : 0.0;
-    if (inside == 0.0) return direction;
+    float beyond = length(max(max(uRoomLow - margin - vPosition, vPosition - uRoomHigh - margin), 0.0));
+    inside = 1.0 - smoothstep(0.0, 0.5, beyond);
+    if (beyond > 0.0) return direction;
     vec3 d = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
     vec3 far = max((uRoomLow - margin - vPosition) / d, (uRoomHigh + margin - vPosition) / d);
     return vPosition + direction * min(far.x, min(far.y, far.z)) - uProbeAt;
   }
 
-  // Radiance that the probe has for a reflection. What is lit otherwise than the middle of another room than the
-  // probe's is given a share after its own light. In its own room the probe knows better: rough places in dark corners
-  // reflect less, but what a lamp lights strongly does not reflect more. What is very rough reflects as it is lit,
-  // without a look at the probe.
+  // Radiance that the probe has for a reflection. Outside of the probe's room it is scaled by how a place is lit beside
+  // what the probe sees around it. In that room it is only dimmed, the rougher the more: corners are darker than the
+  // middle, but what a lamp lights strongly does not reflect more. What is very rough reflects as it is lit, without a
+  // look at the probe.
   vec3 reflected(vec3 n, vec3 v, float roughness, vec3 lux) {
     #ifdef PROBE
       if (!uReflect || roughness >= kRough) return lux / kPi;
