@@ -12,13 +12,11 @@
 #include <unordered_map>
 
 #include "trace/light_layers.h"
-#include "trace/surface_point.h"
 
 namespace roomlight::bake {
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-constexpr int kGap = 1;                // texels around a chart that repeat its edge
 constexpr int kMostOutside = 64;       // texels of an edge of what lies in no room, such as the ground,
 constexpr float kLargeM2 = 60;         // or is so large
 constexpr int kMost = 1024;            // texels of an edge
@@ -26,21 +24,12 @@ constexpr float kAlongStrips = 4;      // so much longer are texels of strips as
 constexpr float kLongestTexelM = 2, kLongerTexels = 1.4f;  // until an atlas fits
 constexpr int kLeastRow = 32, kMostRow = 1024;  // texels of vertices side by side
 constexpr float kOffRoomM = 0.1f;      // from a wall, in the room that it faces
-constexpr float kLongestFootprintM = 0.3f;  // over which a texel's direct light is averaged
 constexpr float kInsideTexels =
     0.75f; // a texel whose middle is so near takes light, at the nearest place of the chart
 constexpr float kReachTexels = 1.5f;   // and one so near is read by linear interpolation
-constexpr float kOffEdgeM = 0.01f;     // light is taken so far from a triangle's edge, where other things touch it,
-constexpr float kOffEdgeShare = 0.15f; // at most so much of the way to its middle
-
-// How a chart lies on its texels.
-struct Grid {
-  int width, height;  // texels without the gap
-  Vec2 perM;          // texels a metre
-};
 
 // Large ones outside, such as the ground, are coarse; light varies little along a strip as narrow as a texel.
-Grid gridOf(const Chart& chart, float texelM, bool outside) {
+ChartGrid gridOf(const Chart& chart, float texelM, bool outside) {
   const float narrow = std::min(chart.sizeM.x, chart.sizeM.y) < texelM ? kAlongStrips : 1;
   const int most = outside || chart.areaM2 > kLargeM2 ? kMostOutside : kMost;
   const auto across = [&](float sizeM) {
@@ -51,45 +40,6 @@ Grid gridOf(const Chart& chart, float texelM, bool outside) {
           h,
           {static_cast<float>(w - 1) / std::max(chart.sizeM.x, 1e-6f),
            static_cast<float>(h - 1) / std::max(chart.sizeM.y, 1e-6f)}};
-}
-
-Vec2 nearestOnEdge(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 e = b - a, d = p - a;
-  const float l = e.x * e.x + e.y * e.y;
-  const float t = l > 0 ? std::clamp((d.x * e.x + d.y * e.y) / l, 0.0f, 1.0f) : 0;
-  return a + e * t;
-}
-
-float cross2(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-float square(Vec2 v) { return v.x * v.x + v.y * v.y; }
-
-// The place of a triangle on the plane that is nearest to p, as barycentric weights of corners 1 and 2.
-struct Nearest {
-  float distance2, b1, b2;
-};
-Nearest nearestIn(const std::array<Vec2, 3>& c, Vec2 p) {
-  const float area = cross2(c[1] - c[0], c[2] - c[0]);
-  const auto weights = [&](Vec2 q) {
-    if (std::abs(area) < 1e-12f) return Vec2{1.0f / 3, 1.0f / 3};
-    return Vec2{cross2(q - c[0], c[2] - c[0]) / area, cross2(c[1] - c[0], q - c[0]) / area};
-  };
-  const Vec2 w = weights(p);
-  if (w.x >= 0 && w.y >= 0 && w.x + w.y <= 1) return {0, w.x, w.y};
-  Nearest best{kInfinity, 0, 0};
-  for (size_t k = 0; k < 3; ++k) {
-    const Vec2 q = nearestOnEdge(p, c[k], c[(k + 1) % 3]);
-    if (const float d = square(q - p); d < best.distance2) {
-      const Vec2 at = weights(q);
-      best = {d, std::clamp(at.x, 0.0f, 1.0f), std::clamp(at.y, 0.0f, 1.0f)};
-    }
-  }
-  return best;
-}
-
-Vec3 towards(Vec3 p, Vec3 middle) {
-  const Vec3 d = middle - p;
-  const float l = length(d);
-  return l > 0 ? p + d * std::min(kOffEdgeShare, kOffEdgeM / l) : p;
 }
 
 // Vertices of a chart; those at one place whose normals agree share a texel.
@@ -135,10 +85,7 @@ class AtlasWriter {
  public:
   AtlasWriter(const Scene& scene, Atlas& atlas) : scene_(scene), atlas_(atlas) {}
 
-  void add(Chart chart, const Grid& grid, int x, int y) {
-    const Instance& instance = scene_.instances[chart.instance];
-    mesh_ = &scene_.meshes[static_cast<size_t>(instance.mesh)];
-    worldFromObject_ = &instance.worldFromObject;
+  void add(Chart chart, const ChartGrid& grid, int x, int y) {
     if (chart.byVertices) {
       addVertices(std::move(chart), grid.width, x, y);
     } else {
@@ -147,59 +94,30 @@ class AtlasWriter {
   }
 
  private:
-  struct Corner {
-    uint32_t triangle = kNone;
-    float distance2 = kInfinity, b1 = 0, b2 = 0;
-  };
-
   uint32_t texelAt(int x, int y) const { return static_cast<uint32_t>(y * atlas_.width + x); }
-  std::array<uint32_t, 3> cornersOf(const Chart& chart, uint32_t t) const {
-    std::array<uint32_t, 3> c{mesh_->indices[3 * t], mesh_->indices[3 * t + 1], mesh_->indices[3 * t + 2]};
-    if (chart.back) std::swap(c[1], c[2]);
-    return c;
-  }
-  // Of the lit side, unit. `b1`, `b2`: of the corners as cornersOf() has them.
-  Vec3 normalAt(const Chart& chart, uint32_t triangle, Vec3 geometric, float b1, float b2) const {
-    if (chart.back) std::swap(b1, b2);
-    return smoothNormalAt(*mesh_, *worldFromObject_, {triangle, b1, b2}, geometric);
-  }
-  static Vec3 geometricNormal(const std::array<Vec3, 3>& p) {
-    const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
-    return length(n) > 0 ? normalize(n) : Vec3(0, 1, 0);
-  }
-  std::array<Vec3, 3> placesOf(const std::array<uint32_t, 3>& c) const {
-    return {worldFromObject_->point(mesh_->positions[c[0]]), worldFromObject_->point(mesh_->positions[c[1]]),
-            worldFromObject_->point(mesh_->positions[c[2]])};
-  }
 
-  void addTexels(Chart chart, const Grid& grid, int x, int y) {
-    const int w = grid.width + 2 * kGap, h = grid.height + 2 * kGap;
-    const auto onGrid = [&](Vec3 p) {  // texels from the chart's corner; whole numbers are middles
-      return Vec2{(dot(p, chart.alongU) - chart.lowM.x) * grid.perM.x + kGap,
-                  (dot(p, chart.alongV) - chart.lowM.y) * grid.perM.y + kGap};
-    };
-    std::vector<Corner> nearest(static_cast<size_t>(w * h));
-    for (const uint32_t t : chart.triangles) {
-      const std::array<Vec3, 3> p = placesOf(cornersOf(chart, t));
-      cover({onGrid(p[0]), onGrid(p[1]), onGrid(p[2])}, t, w, nearest);
-    }
-    std::vector<uint32_t> elementAt(nearest.size(), kNone);
-    for (size_t i = 0; i < nearest.size(); ++i) {
-      if (nearest[i].distance2 > kInsideTexels * kInsideTexels) continue;
+  void addTexels(Chart chart, const ChartGrid& grid, int x, int y) {
+    const ChartSurface surface(scene_, chart);
+    const ChartTexels texels(surface, chart, grid, 1, kReachTexels);
+    const int w = texels.width(), h = texels.height();
+    std::vector<uint32_t> elementAt(texels.count(), kNone);
+    for (size_t i = 0; i < texels.count(); ++i) {
+      if (texels.distanceTexels(i) > kInsideTexels) continue;
       const int tx = static_cast<int>(i) % w, ty = static_cast<int>(i) / w;
       if (tx < kGap || ty < kGap || tx >= w - kGap || ty >= h - kGap) continue;
       elementAt[i] = static_cast<uint32_t>(atlas_.elements.size());
-      atlas_.elements.push_back(elementIn(chart, nearest[i], texelEdgeM(grid)));
+      atlas_.elements.push_back(texels.element(i, {}));
       atlas_.texels.push_back(texelAt(x + tx, y + ty));
     }
-    pad(elementAt, nearest, w, {x, y});
+    pad(elementAt, texels, {x, y});
     PlacedChart placed;
+    placed.grid = grid, placed.left = x, placed.top = y;
     std::unordered_map<uint32_t, uint32_t> numbers;
     for (const uint32_t t : chart.triangles) {
-      for (const uint32_t v : cornersOf(chart, t)) {
+      for (const uint32_t v : surface.cornersOf(t)) {
         const auto [entry, isNew] = numbers.emplace(v, static_cast<uint32_t>(placed.vertices.size()));
         if (isNew) {
-          const Vec2 q = onGrid(worldFromObject_->point(mesh_->positions[v]));
+          const Vec2 q = texels.onGrid(surface.worldFromObject().point(surface.mesh().positions[v]));
           placed.vertices.push_back({v, {static_cast<float>(x) + q.x + 0.5f, static_cast<float>(y) + q.y + 0.5f}});
         }
         placed.indices.push_back(entry->second);
@@ -214,43 +132,13 @@ class AtlasWriter {
     atlas_.charts.push_back(std::move(placed));
   }
 
-  // Keeps for each texel about a triangle where it is nearest.
-  static void cover(const std::array<Vec2, 3>& c, uint32_t triangle, int width, std::vector<Corner>& nearest) {
-    const int height = static_cast<int>(nearest.size()) / width;
-    const auto from = [](float a, float b, float d) {
-      return std::max(0, static_cast<int>(std::ceil(std::min({a, b, d}) - kReachTexels)));
-    };
-    const auto to = [](float a, float b, float d, int end) {
-      return std::min(end - 1, static_cast<int>(std::floor(std::max({a, b, d}) + kReachTexels)));
-    };
-    for (int y = from(c[0].y, c[1].y, c[2].y); y <= to(c[0].y, c[1].y, c[2].y, height); ++y) {
-      for (int x = from(c[0].x, c[1].x, c[2].x); x <= to(c[0].x, c[1].x, c[2].x, width); ++x) {
-        Corner& best = nearest[static_cast<size_t>(y * width + x)];
-        const Nearest here = nearestIn(c, {static_cast<float>(x), static_cast<float>(y)});
-        if (here.distance2 < best.distance2) best = {triangle, here.distance2, here.b1, here.b2};
-      }
-    }
-  }
-
-  static float texelEdgeM(const Grid& grid) {
-    return std::min(kLongestFootprintM, 1 / std::sqrt(std::max(grid.perM.x * grid.perM.y, 1e-6f)));
-  }
-  SurfaceElement elementIn(const Chart& chart, const Corner& at, float edgeM) const {
-    const std::array<uint32_t, 3> c = cornersOf(chart, at.triangle);
-    const std::array<Vec3, 3> p = placesOf(c);
-    const Vec3 place = p[0] * (1 - at.b1 - at.b2) + p[1] * at.b1 + p[2] * at.b2;
-    return {towards(place, (p[0] + p[1] + p[2]) / 3), normalAt(chart, at.triangle, geometricNormal(p), at.b1, at.b2),
-            edgeM};
-  }
-
   // Texels that interpolation reads and no element stands for repeat the nearest one.
-  void pad(const std::vector<uint32_t>& elementAt, const std::vector<Corner>& nearest, int width,
-           std::pair<int, int> corner) {
-    const int height = static_cast<int>(elementAt.size()) / width;
+  void pad(const std::vector<uint32_t>& elementAt, const ChartTexels& texels, std::pair<int, int> corner) {
+    const int width = texels.width(), height = texels.height();
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const size_t i = static_cast<size_t>(y * width + x);
-        if (elementAt[i] != kNone || nearest[i].triangle == kNone) continue;
+        if (elementAt[i] != kNone || !texels.onTriangle(i)) continue;
         uint32_t best = kNone;
         int least = std::numeric_limits<int>::max();
         for (int dy = -2; dy <= 2; ++dy) {
@@ -268,12 +156,13 @@ class AtlasWriter {
   void addVertices(Chart chart, int width, int x, int y) {
     PlacedChart placed;
     SharedVertices shared;
+    const ChartSurface surface(scene_, chart);
     for (const uint32_t t : chart.triangles) {
-      const std::array<uint32_t, 3> c = cornersOf(chart, t);
-      const std::array<Vec3, 3> p = placesOf(c);
-      const Vec3 geometric = geometricNormal(p);
+      const std::array<uint32_t, 3> c = surface.cornersOf(t);
+      const std::array<Vec3, 3> p = surface.placesOf(c);
+      const Vec3 geometric = ChartSurface::geometricNormal(p);
       for (size_t k = 0; k < 3; ++k) {
-        const Vec3 n = normalAt(chart, t, geometric, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
+        const Vec3 n = surface.normalAt(t, geometric, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
         placed.indices.push_back(shared.add(c[k], p[k], n, p));
       }
     }
@@ -283,7 +172,7 @@ class AtlasWriter {
     };
     for (size_t i = 0; i < places.size(); ++i) {
       const Vec3 normal = length(places[i].normal) > 0 ? normalize(places[i].normal) : chart.normal;
-      atlas_.elements.push_back({towards(places[i].position, places[i].middle), normal});
+      atlas_.elements.push_back({offEdge(places[i].position, places[i].middle), normal});
       atlas_.texels.push_back(texelAt(texelOf(i).first, texelOf(i).second));
     }
     for (size_t v = 0; v < shared.count(); ++v) {
@@ -295,8 +184,6 @@ class AtlasWriter {
 
   const Scene& scene_;
   Atlas& atlas_;
-  const Mesh* mesh_ = nullptr;
-  const Affine* worldFromObject_ = nullptr;
 };
 
 // At most so many texels of vertices: those that share one are told only when they are written.
@@ -313,13 +200,13 @@ size_t vertexCount(const Scene& scene, const Chart& chart) {
 // Where charts will lie.
 struct Layout {
   std::vector<size_t> order;  // of charts, by room
-  std::vector<Grid> grids;
+  std::vector<ChartGrid> grids;
   std::vector<stbrp_rect> rects;
   int width = 0, height = 0;
 };
 
 // Vertices in about a square.
-Grid vertexGrid(size_t count) {
+ChartGrid vertexGrid(size_t count) {
   const int row = std::clamp(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))), kLeastRow, kMostRow);
   const auto n = static_cast<int>(count);
   return {std::min(n, row), (n + row - 1) / row, {}};
@@ -335,7 +222,8 @@ Layout layoutOf(const Scene& scene, const std::vector<Chart>& charts, const Atla
     std::vector<stbrp_rect> rects;
     for (const size_t i : members) {
       const bool fine = charts[i].byVertices;
-      const Grid grid = fine ? vertexGrid(vertexCount(scene, charts[i])) : gridOf(charts[i], settings.texelM, room < 0);
+      const ChartGrid grid =
+          fine ? vertexGrid(vertexCount(scene, charts[i])) : gridOf(charts[i], settings.texelM, room < 0);
       const int gap = fine ? 0 : 2 * kGap;
       rects.push_back({static_cast<int>(out.grids.size()), grid.width + gap, grid.height + gap, 0, 0, 0});
       out.grids.push_back(grid), out.order.push_back(i);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/chart_texels.h"
 #include "bake/charts.h"
 #include "base/result.h"
 #include "trace/meter.h"
@@ -26,6 +27,8 @@ struct AtlasVertex {
 
 struct PlacedChart {
   Chart chart;
+  ChartGrid grid;         // of charts by texels,
+  int left = 0, top = 0;  // whose gap begins with this texel of the atlas
   std::vector<AtlasVertex> vertices;
   std::vector<uint32_t> indices;  // three a triangle, into `vertices`; counter-clockwise seen from the lit side
 };

@@ -56,11 +56,14 @@ struct LaidOut {
   Scene scene;  // simplified
   Atlas atlas;
   LitPlaces lit;  // on the home as it is
+  std::vector<float> movedM;       // of each mesh
+  std::vector<bool> buriedCells;   // for masks of suns; empty: there are none
+  SunCells sunCells() const { return {scene, atlas, lit, movedM, buriedCells}; }
 };
 
-Result<LaidOut> layOut(const RayScene& home, const BakeSettings& settings, Stages& stages) {
+Result<LaidOut> layOut(const RayScene& home, bool sun, const BakeSettings& settings, Stages& stages) {
   Scene scene = home.scene();
-  const std::vector<float> moved =
+  std::vector<float> moved =
       stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM); });
   const RayScene rays(scene);
   const SeenSides seen = stages.run("seen", [&](const Progress&) {
@@ -71,8 +74,10 @@ Result<LaidOut> layOut(const RayScene& home, const BakeSettings& settings, Stage
     Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
     if (!atlas) return Error{atlas.error()};
     LitPlaces lit = litPlacesOf(atlas.value(), rays, seen, settings.placesApartM);
+    std::vector<bool> buried;
+    if (sun) buried = buriedCells(rays, atlas.value(), lit, seen);
     putOnHome(lit, home, moved);
-    return LaidOut{std::move(scene), std::move(atlas.value()), std::move(lit)};
+    return LaidOut{std::move(scene), std::move(atlas.value()), std::move(lit), std::move(moved), std::move(buried)};
   });
 }
 
@@ -103,14 +108,16 @@ Result<FileParts> partsOf(const LaidOut& laid, const BakeWish& wish, const BakeS
 // With settings coarse enough for the budget.
 Result<LaidOut> layOutWithin(const Scene& home, const BakeWish& wish, BakeSettings& settings, Stages& stages) {
   const RayScene rays(home);
-  Result<LaidOut> laid = layOut(rays, settings, stages);
+  const bool sun =
+      std::any_of(wish.hours.begin(), wish.hours.end(), [](const DaylightHour& h) { return h.suns.size() == 1; });
+  Result<LaidOut> laid = layOut(rays, sun, settings, stages);
   if (!laid || wish.budgetBytes == 0 || stages.cancelled()) return laid;
   const Result<FileParts> parts = partsOf(laid.value(), wish, settings);
   if (!parts) return Error{parts.error()};
   const float texelM = settings.charts.texelM, simplifyM = settings.simplifyM;
   settings = withinBudget(settings, parts.value(), wish.budgetBytes);
   return texelM == settings.charts.texelM && simplifyM == settings.simplifyM ? std::move(laid)
-                                                                             : layOut(rays, settings, stages);
+                                                                             : layOut(rays, sun, settings, stages);
 }
 
 // From places to the atlas, with less noise.
@@ -196,7 +203,8 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   for (const DaylightHour& hour : wish.hours) {
     Scene day = whole;
     day.suns = hour.suns, day.sky = hour.sky;
-    Result<std::vector<BakedLayer>> layers = daylightLayers(day, hour.hour, places, settings.layers, stages);
+    Result<std::vector<BakedLayer>> layers =
+        daylightLayers(day, hour.hour, places, laid.sunCells(), settings.layers, stages);
     if (!layers) return Error{layers.error()};
     if (stages.cancelled()) return BakedHome{};
     std::move(layers.value().begin(), layers.value().end(), std::back_inserter(daylight));

@@ -272,6 +272,18 @@ Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, cons
   const LightTexels texels = lightTexels(light, kTile);
   lightBytes += texels.stream.size();
   json["light"] = {{"bufferView", glb.addView(texels.stream)}, {"scale", texels.scale}, {"tiles", texels.tiles}};
+  if (layer.sun) {
+    const MaskTexels mask = maskTexels(layer.mask, light.width, kTile);
+    lightBytes += mask.stream.size();
+    json["sun"] = {{"direction", vectorJson(layer.sun->toLight)},
+                   {"lux", vectorJson(layer.sun->illuminanceLux)},
+                   {"halfAngleDeg", layer.sun->halfAngleRad * 180 / kPi},
+                   {"mask",
+                    {{"bufferView", glb.addView(mask.stream)},
+                     {"fine", kFineCells},
+                     {"channels", mask.channels},
+                     {"tiles", mask.tiles}}}};
+  }
   if (layer.panorama.width > 0) {
     const LightTexels sky = lightTexels(layer.panorama);
     json["panorama"] = {{"bufferView", glb.addView(sky.stream)},
@@ -321,7 +333,7 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
       layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux), out.lightBytes));
   }
   const std::vector<Camera> cameras = camerasInside(scene);
-  Json extension = {{"version", 2},
+  Json extension = {{"version", 3},
                     {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
                     {"layers", layers},
                     {"rooms", roomsJson(scene)},

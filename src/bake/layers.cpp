@@ -31,6 +31,7 @@ Scene withoutLamps(Scene scene) {
 }
 
 bool givesLight(const BakedLayer& layer) {
+  if (std::any_of(layer.mask.left.begin(), layer.mask.left.end(), [](const auto& l) { return l[1] > 0; })) return true;
   for (const Vec3 e : layer.lux) {
     if (luminance(e) > kLeastLux) return true;
   }
@@ -61,8 +62,8 @@ std::string inputsOf(const LitScene& light, const LayerSettings& settings) {
   RenderSettings render = settings.render;
   render.threads = 0;
   const MeterSettings& m = settings.meters;
-  return hashOf(fmt::format("{} {} {} {} {} {} {}", version(), settingsToJson(render), m.tolerance, m.fewestSamples,
-                            m.mostSamples, m.seed, hashOfScene(light.rays().scene())));
+  return hashOf(fmt::format("{} {} {} {} {} {} {} {}", version(), settingsToJson(render), m.tolerance, m.fewestSamples,
+                            m.mostSamples, m.seed, m.straightSuns, hashOfScene(light.rays().scene())));
 }
 
 void append(BakedLayer& layer, const float* n) {
@@ -137,7 +138,7 @@ Result<LampLayers> lampLayers(const Scene& home, const std::vector<SurfaceElemen
   if (!layers) return Error{"the home has more lamps than can be told apart; group some in a lighting file"};
   std::vector<BakedLayer> found;
   for (const LightLayer& of : layers->layers) {
-    found.push_back({of.name, LayerRole::Lamp, Vec3(1), of.position, true, 0, {}, {}, {}});
+    found.push_back({of.name, LayerRole::Lamp, Vec3(1), of.position, true, 0});
     if (luminance(of.fluxLm) > 0) found.back().color = of.fluxLm / luminance(of.fluxLm);
   }
   if (!stages.run("lamps", [&](const Progress& p) { return readLamps(*light.value(), elements, settings, p, found); }))
@@ -154,7 +155,7 @@ Result<LampLayers> lampLayers(const Scene& home, const std::vector<SurfaceElemen
 }
 
 Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
-                                               const std::vector<SurfaceElement>& elements,
+                                               const std::vector<SurfaceElement>& elements, const SunCells& cells,
                                                const LayerSettings& settings, Stages& stages) {
   std::vector<BakedLayer> out;
   for (const bool sun : {true, false}) {
@@ -165,11 +166,17 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
     const Result<std::unique_ptr<LitScene>> light = lit(scene, settings.render, stages);
     if (!light) return Error{light.error()};
     if (!light.value()) return out;
-    BakedLayer layer{sun ? "Sun" : "Sky", sun ? LayerRole::Sun : LayerRole::Sky, {}, {}, true, hour, {}, {}, {}};
+    BakedLayer layer{sun ? "Sun" : "Sky", sun ? LayerRole::Sun : LayerRole::Sky, {}, {}, true, hour};
+    LayerSettings ofLayer = settings;
+    if (sun && scene.suns.size() == 1) {
+      layer.sun = scene.suns.front(), ofLayer.meters.straightSuns = false;
+      layer.mask = stages.run(
+          "sun mask", [&](const Progress& p) { return sunMaskOf(cells, light.value()->rays(), *layer.sun, p); });
+    }
     if (!stages.run(sun ? "sun" : "sky",
-                    [&](const Progress& p) { return readDaylight(*light.value(), elements, settings, p, layer); }))
+                    [&](const Progress& p) { return readDaylight(*light.value(), elements, ofLayer, p, layer); }))
       return out;
-    layer.color = meanColor(layer.lux);
+    layer.color = layer.sun ? meanColor({layer.sun->illuminanceLux}) : meanColor(layer.lux);
     if (!sun) layer.panorama = panoramaOf(light.value()->lights().sky());
     if (!sun || givesLight(layer)) out.push_back(std::move(layer));
   }

@@ -1,11 +1,13 @@
 // The light of a home as layers on the elements of an atlas: of each lamp or group of lamps, of the sun, of the sky.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bake/atlas.h"
 #include "bake/kept_light.h"
+#include "bake/sun_mask.h"
 #include "engine/lit_scene.h"
 #include "engine/settings.h"
 
@@ -20,8 +22,10 @@ struct BakedLayer {
   Vec3 position;        // of lamps
   bool on = true;
   double hour = 0;      // local time, of sun and sky
-  std::vector<Vec3> lux;       // on each element
+  std::vector<Vec3> lux;       // on each element; of a layer with a sun what does not come straight from it
   std::vector<float> errorLux; // standard error of its luminance, likewise
+  std::optional<Sun> sun;      // whose straight light
+  SunMask mask;                // is here
   Image panorama;              // of the sky, equirectangular, cd/m²
 };
 
@@ -41,9 +45,9 @@ Result<LampLayers> lampLayers(const Scene& scene, const std::vector<SurfaceEleme
                               const LayerSettings& settings, Stages& stages);
 
 // All suns, and the sky, as the scene has them. A sun that gives nothing is left out; a sky tells that its hour is
-// known.
+// known. What comes straight from a sun that is alone stands apart, on `cells`.
 Result<std::vector<BakedLayer>> daylightLayers(const Scene& scene, double hour,
-                                               const std::vector<SurfaceElement>& elements,
+                                               const std::vector<SurfaceElement>& elements, const SunCells& cells,
                                                const LayerSettings& settings, Stages& stages);
 
 // Takes noise from the layers: a mean over neighbours of one chart whose light is the same up to what their errors

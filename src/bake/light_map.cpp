@@ -18,7 +18,10 @@ Image onAtlas(const Atlas& atlas, const std::vector<Vec3>& lux) {
 Image lightAtFirst(const Atlas& atlas, const LampLayers& lamps, const std::vector<BakedLayer>& daylight) {
   std::vector<Vec3> sum(atlas.elements.size());
   const auto add = [&](const BakedLayer& layer) {
-    for (size_t i = 0; layer.on && i < sum.size(); ++i) sum[i] += layer.lux[i];
+    if (!layer.on) return;
+    std::vector<Vec3> straight(sum.size());
+    if (layer.sun) straight = sunlightOn(atlas, layer.mask, *layer.sun);
+    for (size_t i = 0; i < sum.size(); ++i) sum[i] += layer.lux[i] + straight[i];
   };
   for (const BakedLayer& layer : lamps.layers) add(layer);
   for (const BakedLayer& layer : daylight) {

@@ -80,6 +80,33 @@ LightTexels lightTexels(const Image& picture) {
   return out;
 }
 
+MaskTexels maskTexels(const SunMask& mask, int width, int tile) {
+  MaskTexels out;
+  out.channels = mask.coloured ? 3 : 1;
+  if (!mask.any()) return out;
+  const auto row = static_cast<size_t>(width) * kFineCells, edge = static_cast<size_t>(tile) * kFineCells;
+  const size_t across = row / edge, count = mask.left.size() / (edge * edge);
+  std::string bytes;
+  for (size_t t = 0; t < count; ++t) {
+    const auto at = [&](size_t x, size_t y) -> const std::array<uint8_t, 3>& {
+      return mask.left[(t / across * edge + y) * row + t % across * edge + x];
+    };
+    bool dark = true;
+    for (size_t i = 0; dark && i < edge * edge; ++i) dark = at(i % edge, i / edge) == std::array<uint8_t, 3>{};
+    if (dark) continue;
+    out.tiles.push_back(static_cast<uint32_t>(t));
+    // Green stands for all where they are alike.
+    for (size_t c = mask.coloured ? 0 : 1; c < (mask.coloured ? 3u : 2u); ++c) {
+      for (size_t i = 0; i < edge * edge; ++i) {
+        const size_t x = i % edge, y = i / edge;
+        bytes.push_back(static_cast<char>(at(x, y)[c] - (x > 0 ? at(x - 1, y)[c] : 0)));
+      }
+    }
+  }
+  out.stream = deflated(bytes);
+  return out;
+}
+
 std::string deflated(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/sun_mask.h"
 #include "base/image.h"
 #include "base/vec.h"
 
@@ -26,6 +27,15 @@ struct LightTexels {
 LightTexels lightTexels(const Image& light, int tile);
 // Of a picture as one tile of any size.
 LightTexels lightTexels(const Image& picture);
+
+struct MaskTexels {
+  int channels = 1;             // 3: linear red, green and blue, plane by plane in each tile
+  std::vector<uint32_t> tiles;  // that are not dark, in rising order
+  std::string stream;           // a zlib stream
+};
+
+// Cells of an atlas `width` texels wide, in tiles of `tile` texels. Each byte is the difference to the one left of it.
+MaskTexels maskTexels(const SunMask& mask, int width, int tile);
 
 // Raw bytes as a zlib stream (RFC 1950).
 std::string deflated(std::string_view bytes);

@@ -20,23 +20,6 @@ constexpr float kCoveredShare = 0.7f;  // if more of its rays than this end ther
 constexpr float kSteps = 1.5f;       // of a component of normals that share a place, each way from zero
 constexpr float kFacing = 0.3f;  // cosine between the normals of a vertex and of a place that lights it, at least
 
-bool isBuried(const SurfaceElement& e, size_t number, const RayScene& rays, const SeenSides& seen) {
-  const Frame frame(e.normal);
-  const Vec3 origin = offsetOrigin(e.position, e.normal);
-  int open = 0, covered = 0;
-  for (int k = 0; k < kRaysEach; ++k) {
-    Sampler sampler(number, static_cast<uint32_t>(k), 0);
-    const Ray ray{origin, frame.toWorld(sampleCosineHemisphere(sampler.next2()))};
-    const Hit hit = rays.intersect(ray);
-    if (!hit.valid() || seen.seen(hit.instance, hit.triangle, meetsBack(rays.scene(), hit, ray.direction))) {
-      ++open;
-    } else if (hit.t < kCoverM) {
-      ++covered;
-    }
-  }
-  return open == 0 || static_cast<float>(covered) > kCoveredShare * kRaysEach;
-}
-
 // For each element of a chart by texels the nearest one of it, along texels, that is not buried; kNone: there is none.
 std::vector<uint32_t> nearestOpen(const Atlas& atlas, const std::vector<uint8_t>& buried) {
   const size_t n = atlas.elements.size();
@@ -143,6 +126,23 @@ class Clusters {
 
 }  // namespace
 
+bool isBuried(const SurfaceElement& e, size_t number, const RayScene& rays, const SeenSides& seen) {
+  const Frame frame(e.normal);
+  const Vec3 origin = offsetOrigin(e.position, e.normal);
+  int open = 0, covered = 0;
+  for (int k = 0; k < kRaysEach; ++k) {
+    Sampler sampler(number, static_cast<uint32_t>(k), 0);
+    const Ray ray{origin, frame.toWorld(sampleCosineHemisphere(sampler.next2()))};
+    const Hit hit = rays.intersect(ray);
+    if (!hit.valid() || seen.seen(hit.instance, hit.triangle, meetsBack(rays.scene(), hit, ray.direction))) {
+      ++open;
+    } else if (hit.t < kCoverM) {
+      ++covered;
+    }
+  }
+  return open == 0 || static_cast<float>(covered) > kCoveredShare * kRaysEach;
+}
+
 LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides& seen, float apartM) {
   const size_t n = atlas.elements.size();
   std::vector<uint8_t> buried(n);
@@ -176,6 +176,7 @@ LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides&
     out.sides.resize(out.places.size(), {chart.instance, chart.back, chart.byVertices});
     first = end;
   }
+  out.buried = std::move(buried);
   return out;
 }
 

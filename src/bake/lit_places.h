@@ -29,6 +29,7 @@ struct LitPlaces {
   std::vector<SurfaceElement> places;
   std::vector<LitSide> sides;          // that the places are on
   std::vector<LightShares> ofElement;  // of the atlas
+  std::vector<uint8_t> buried;         // likewise
   // Light on all elements of the atlas from light on places.
   template <class T>
   std::vector<T> spread(std::span<const T> light) const {
@@ -40,6 +41,9 @@ struct LitPlaces {
     return out;
   }
 };
+
+// Whether next to nothing of what a place sees can be seen from the rooms. `number`: of its rays.
+bool isBuried(const SurfaceElement& place, size_t number, const RayScene& rays, const SeenSides& seen);
 
 // A place that is buried, as the part of a floor under a wall is, where next to nothing of what it sees can be seen
 // from the rooms, takes the light of the nearest open one of its chart: what is dark there may not bleed into what is

@@ -47,6 +47,7 @@ struct MeterStream {
 
 // Samples of one element, ready to be shaded.
 struct MeterSamples {
+  size_t untraced = 0;  // suns, the last of the sharp lights, that give nothing
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
   void take(const RayScene& rays, const SharpLights& sharp, const SurfaceElement& element, const MeterStream& stream,
@@ -61,7 +62,7 @@ struct MeterSamples {
         origin = placeWithin(rays, element, sampler.forked(kPlaceKey).next2());
       for (size_t i = 0; i < sharp.count(); ++i) {
         const Vec2 u = sampler.next2();
-        shadows.push_back(sharp.shadow(i, {&origin, 1}, {&u, 1}));
+        shadows.push_back(i + untraced < sharp.count() ? sharp.shadow(i, {&origin, 1}, {&u, 1}) : Shadow{});
       }
       shadings.push_back({s, s.ng, sampler, firstShadow, false, 1, true, lampsKnown});
     }
@@ -160,6 +161,7 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     thread_local MeterSamples samples;
     thread_local std::vector<SurfaceLight> light;
+    samples.untraced = settings.straightSuns ? 0 : lights.sunCount();
     samples.take(rays, sharp, elements[meter], {meter, first, settings.seed}, count);
     light.assign(samples.shadings.size(), {});
     GatherCounters counters;

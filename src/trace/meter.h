@@ -32,6 +32,9 @@ struct MeterSettings {
   int fewestSamples = 64;  // powers of two
   int mostSamples = 1 << 14;
   uint64_t seed = 0;
+  // Whether what comes straight from suns counts; techniques that light surfaces by rays and cones (gather/meters.h)
+  // can leave it out.
+  bool straightSuns = true;
 };
 
 // Light on elements but what comes straight from the sky: that of `count` samples of one of them, from the one numbered

@@ -60,6 +60,13 @@ export type Compression = Checked<typeof compression>;
 
 const light = v.object({ bufferView: index, scale: positive, tiles: v.array(index) });
 const panorama = v.object({ bufferView: index, width: size, height: size, scale: positive });
+const mask = v.object({
+  bufferView: index,
+  fine: size, // cells along the edge of a texel
+  channels: v.picklist([1, 3]),
+  tiles: v.array(index),
+});
+const sun = v.object({ direction: triple, lux: triple, halfAngleDeg: v.optional(real, 0), mask });
 const layer = v.object({
   name: v.string(),
   kind: v.picklist(["lamp", "sun", "sky"]),
@@ -70,6 +77,7 @@ const layer = v.object({
   position: v.optional(triple),
   light,
   panorama: v.optional(panorama),
+  sun: v.optional(sun),
 });
 const room = v.object({
   name: v.string(),
@@ -158,7 +166,8 @@ export type Room = Home["rooms"][number];
 export type Camera = Home["cameras"][number];
 export type ToneName = Home["display"]["tone"];
 
-const kVersion = 2; // that bake writes
+const kFinest = 16; // cells along the edge of a texel
+const kVersion = 3; // that bake writes
 const versionOnly = v.object({ extensions: v.object({ ROOMLIGHT_light_layers: v.object({ version: whole }) }) });
 
 export function checkDocument(json: unknown): Gltf {
@@ -180,9 +189,13 @@ function checkTiles({ atlas, layers }: Home): void {
   if (atlas.width % atlas.tile !== 0 || atlas.height % atlas.tile !== 0)
     throw new BadFile("damaged", "atlas: its size is not one of whole tiles");
   const count = (atlas.width / atlas.tile) * (atlas.height / atlas.tile);
-  layers.forEach((layer, i) => {
-    if (layer.light.tiles.some(tile => tile >= count))
-      throw new BadFile("damaged", `layers.${i}.light.tiles: the atlas has ${count}`);
+  const fine = layers.find(layer => layer.sun)?.sun?.mask.fine;
+  layers.forEach(({ light, sun }, i) => {
+    for (const [what, tiles] of [["light", light.tiles] as const, ["sun.mask", sun?.mask.tiles ?? []] as const])
+      if (tiles.some(tile => tile >= count))
+        throw new BadFile("damaged", `layers.${i}.${what}.tiles: the atlas has ${count}`);
+    if (sun && (sun.mask.fine !== fine || fine > kFinest))
+      throw new BadFile("damaged", `layers.${i}.sun.mask.fine: ${sun.mask.fine}`);
   });
 }
 

@@ -6,6 +6,7 @@ import { readGeometry, type Geometry } from "./geometry.js";
 import { parseGlb } from "./glb.js";
 import { expanded } from "./meshopt.js";
 import type { Stage } from "./stage.js";
+import { Sunlight } from "./sunlight.js";
 import type { TextureSource } from "./surfaces.js";
 import { inflate, unpackTexels } from "./texels.js";
 
@@ -94,13 +95,14 @@ export async function loadLight(
   const { atlas, layers } = document.extensions.ROOMLIGHT_light_layers;
   const order = layers.map((_, i) => i).sort((a, b) => Number(isOn(b)) - Number(isOn(a)) || a - b);
   const unpack = async (i: number) => {
-    const { name, light, panorama } = layers[i]!;
+    const { name, light, panorama, sun } = layers[i]!;
     const what = `layers.${i} (${name})`;
-    const part = (view: number, texels: number, of: string) =>
-      inflate(viewBytes(document, binary, view), 4 * texels, of);
+    const bytes = (view: number, count: number, of: string) => inflate(viewBytes(document, binary, view), count, of);
+    const part = (view: number, texels: number, of: string) => bytes(view, 4 * texels, of);
     return {
       light: await part(light.bufferView, atlas.tile ** 2 * light.tiles.length, what),
       sky: panorama && (await part(panorama.bufferView, panorama.width * panorama.height, `${what}: panorama`)),
+      mask: sun && (await bytes(sun.mask.bufferView, Sunlight.bytesOf(sun.mask, atlas.tile), `${what}: sun`)),
     };
   };
   // The next one is unpacked while one goes to the GPU.
@@ -121,6 +123,7 @@ export async function loadLight(
       const sky = unpackTexels(planes.sky, panorama.width, panorama.height);
       stage.sky.add(i, sky, panorama.width, panorama.scale);
     }
+    if (planes.mask) stage.sunlight.add(i, planes.mask);
     came(i, (done + 1) / order.length);
   }
 }

@@ -14,6 +14,7 @@ import { kProbeDefines, Probe } from "./probe.js";
 import { boxAround, boxOf, middleOf, roomAt, type Box } from "./rooms.js";
 import { Sky } from "./sky.js";
 import { SpotMeter } from "./spot_meter.js";
+import { Sunlight } from "./sunlight.js";
 import { Surfaces, type TextureSource, type Uniforms } from "./surfaces.js";
 import { kFinishGlsl } from "./surface_shader.js";
 
@@ -29,6 +30,7 @@ export class Stage {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(60, 1, kNearM, kFarM);
   readonly light: LightSum;
+  readonly sunlight: Sunlight;
   readonly sky: Sky;
   readonly display: Display;
   readonly spot: SpotMeter;
@@ -65,21 +67,26 @@ export class Stage {
     renderer.info.autoReset = false;
     const { width, height, tile } = this.home.atlas;
     this.light = new LightSum(renderer, width, height, tile);
+    this.sunlight = new Sunlight(this.home);
     this.display = new Display(renderer, this.home, 4);
     this.probe = new Probe(renderer, this.scene, this.display.uniforms, kProbePx);
     this.all = boxAround(geometry.positions);
     const uniforms: Uniforms = {
       ...this.display.uniforms,
       ...this.probe.uniforms,
+      ...this.sunlight.uniforms,
       uLight: { value: this.light.target.texture },
       ...(packed ? { uPacked: { value: packed } } : {}),
     };
-    this.surfaces = new Surfaces(document, geometry, uniforms, textures, kProbeDefines(kProbePx));
+    this.surfaces = new Surfaces(document, geometry, uniforms, textures, {
+      ...kProbeDefines(kProbePx),
+      ...this.sunlight.defines,
+    });
     this.scene.add(this.surfaces.group);
     this.sky = new Sky(renderer, kPanoramaWidth, kPanoramaWidth / 2, kFinishGlsl, this.display.uniforms);
     this.scene.add(this.sky.mesh);
     this.scene.matrixWorldAutoUpdate = false;
-    this.spot = new SpotMeter(renderer, this.light, geometry);
+    this.spot = new SpotMeter(renderer, this.light, this.sunlight, geometry);
   }
 
   touch(): void {
@@ -101,6 +108,7 @@ export class Stage {
     if (sameFactors(this.factors, factors)) return;
     this.factors = factors;
     this.light.update(factors);
+    this.sunlight.update(factors);
     this.sky.update(factors);
     this.surfaces.setFactors(factors);
     this.probe.touch();

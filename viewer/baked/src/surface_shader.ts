@@ -1,5 +1,6 @@
 // How surfaces look: glTF's metallic-roughness under the irradiance of the atlas and the reflections of a probe. The
 // diffuse base keeps what the specular lobe leaves, as in src/trace/bsdf.h.
+import { kSunGlsl } from "./sunlight.js";
 import { kDitherGlsl, kToneGlsl } from "./tone.js";
 import { kMostStored, kUnit } from "./units.js";
 
@@ -42,6 +43,10 @@ export const kSurfaceVertex = `
   out vec3 vPosition, vNormal;
   centroid out vec2 vLightUv;
   centroid out vec3 vLight;
+  ${kSunGlsl}
+  #ifdef SUN_TILE
+    centroid out vec3 vSunLeft[2];
+  #endif
   flat out int vLit; // above zero: light is that of the vertices
   // The material: fewer vertices than pixels ask for it.
   flat out vec4 vBase; // alpha: 1 - share that passes a pane
@@ -63,6 +68,9 @@ export const kSurfaceVertex = `
       ivec2 size = textureSize(uLight, 0);
       vLight = texelFetch(uLight, min(ivec2(lightUv * vec2(size)), size - 1), 0).rgb;
     }
+    #ifdef SUN_TILE
+      for (int k = 0; k < 2; ++k) vSunLeft[k] = vLit > 0 && k < uSunCount ? sunLeft(k, lightUv) : vec3(0.0);
+    #endif
     #ifdef HAS_UV
       vUv = uv;
     #endif
@@ -103,6 +111,10 @@ export const kSurfaceFragment = `
   in vec3 vPosition, vNormal;
   centroid in vec3 vLight; // beyond the edge of a triangle it could be below zero
   centroid in vec2 vLightUv;
+  ${kSunGlsl}
+  #ifdef SUN_TILE
+    centroid in vec3 vSunLeft[2];
+  #endif
   flat in int vLit;
   flat in vec4 vBase, vEmission, vGloss, vF0;
   #ifdef HAS_UV
@@ -124,6 +136,15 @@ export const kSurfaceFragment = `
     vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
     return vec2(-1.04, 1.04) * a + r.zw;
+  }
+
+  // GGX over the cosine of the viewer, times that of the light (Walter et al. 2007; Smith's masking as Heitz 2014 has
+  // it for both ways), without Fresnel.
+  float lobe(vec3 n, vec3 v, vec3 l, vec3 h, float alpha) {
+    float nv = max(dot(n, v), 1e-4), nl = max(dot(n, l), 1e-4), nh = dot(n, h), a2 = alpha * alpha;
+    float k = nh * nh * (a2 - 1.0) + 1.0;
+    float masked = nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl);
+    return a2 / (kPi * k * k) * 0.5 / masked * nl;
   }
 
   // Where a ray from the surface leaves the room, as seen from the probe (parallax correction, Lagarde 2012).
@@ -218,8 +239,25 @@ export const kSurfaceFragment = `
     vec2 terms = specularTerms(clamp(dot(n, v), 0.0, 1.0), roughness);
     vec3 specular = mix(vF0.rgb, base.rgb, gloss.y) * terms.x + mix(vF0.a, 1.0, gloss.y) * terms.y;
     float kept = 1.0 - min(1.0, max(specular.r, max(specular.g, specular.b)));
-    vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * lux * towards(n) / kPi;
+    vec3 straight = vec3(0.0), turned = vec3(0.0), glint = vec3(0.0);
+    #ifdef SUN_TILE
+      for (int k = 0; k < uSunCount; ++k) {
+        vec3 arrives = (vLit > 0 ? max(vSunLeft[k], 0.0) : sunLeft(k, vLightUv)) * uSunLux[k] * ${kUnit.toFixed(1)};
+        vec3 l = uSunDirection[k];
+        straight += arrives * max(dot(normalize(vNormal), l), 0.0);
+        turned += arrives * max(dot(n, l), 0.0);
+        if (!uReflect || dot(n, l) <= 0.0 || arrives.g <= 0.0) continue;
+        vec3 h = normalize(v + l);
+        // As wide as the sun's disc at least: what a smooth surface mirrors is half as wide in half vectors.
+        float alpha = length(vec2(roughness * roughness, 0.5 * uSunSize[k]));
+        vec3 fresnel = mix(mix(vF0.rgb, base.rgb, gloss.y), vec3(mix(vF0.a, 1.0, gloss.y)), pow(1.0 - dot(h, v), 5.0));
+        glint += arrives * fresnel * lobe(n, v, l, h, alpha);
+      }
+    #endif
+    vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * (lux * towards(n) + turned) / kPi;
     vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, lux) : vec3(0.0);
+    shine += glint;
+    lux += straight;
     #ifdef PANE
       // What lies behind passes by the alpha of the target's blending.
       float passes = gloss.z > 0.0 ? gloss.z * luminance(base.rgb) : 1.0 - base.a;

@@ -258,7 +258,7 @@ export function bakedHome(options: Options = {}): Uint8Array {
     extensionsUsed: ["ROOMLIGHT_light_layers", "KHR_materials_specular"],
     extensions: {
       ROOMLIGHT_light_layers: {
-        version: 2,
+        version: 3,
         atlas: kAtlas,
         layers,
         hour: 12,
