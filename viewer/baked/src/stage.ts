@@ -184,6 +184,7 @@ export class Stage {
   private draw(): void {
     this.due = false;
     this.renderer.info.reset();
+    this.surfaces.orderPanes(this.camera.position);
     this.display.draw(this.scene, this.camera);
     ++this.frames;
   }

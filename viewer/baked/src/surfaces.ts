@@ -4,6 +4,7 @@ import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
 import type { Gltf, Material } from "./document.js";
 import { kPacked, mapsOf, type Batch, type Geometry, type Maps } from "./geometry.js";
+import { PaneOrder } from "./pane_order.js";
 import { kSurfaceFragment, kSurfaceVertex } from "./surface_shader.js";
 
 const kNumbers = 16; // of a material: four texels
@@ -31,6 +32,7 @@ export class Surfaces {
   readonly group = new THREE.Group();
   readonly panes: THREE.Mesh[] = [];
   readonly materials: THREE.RawShaderMaterial[] = [];
+  private readonly orders: PaneOrder[] = [];
   private readonly table: Float32Array<ArrayBuffer>;
   private readonly texture: THREE.DataTexture;
 
@@ -63,16 +65,24 @@ export class Surfaces {
     for (const batch of geometry.batches) {
       const part = new THREE.BufferGeometry();
       for (const [name, attribute] of Object.entries(attributes)) part.setAttribute(name, attribute);
-      part.setIndex(new THREE.BufferAttribute(batch.index, 1));
+      const pane = batch.kind === "pane";
+      const index = new THREE.BufferAttribute(pane ? batch.index.slice() : batch.index, 1);
+      part.setIndex(index);
+      if (pane) this.orders.push(new PaneOrder(batch.index, geometry.positions, index));
       const mesh = new THREE.Mesh(part, this.material(batch, textures, geometry.colors !== null));
       mesh.frustumCulled = false;
       mesh.matrixAutoUpdate = false;
-      if (batch.kind === "pane") {
+      if (pane) {
         mesh.renderOrder = 2;
         this.panes.push(mesh);
       }
       this.group.add(mesh);
     }
+  }
+
+  // Before a picture is drawn.
+  orderPanes(eye: THREE.Vector3): void {
+    for (const order of this.orders) order.sort(eye);
   }
 
   // What lamps that shine are multiplied by: null before there are any.
