@@ -14,7 +14,7 @@
 
 namespace roomlight::bake {
 
-constexpr int kFineCells = 3;  // cells along the edge of a texel
+constexpr int kFineCells = 5;  // cells along the edge of a texel
 
 // On all cells of an atlas, in rows of atlas.width * kFineCells.
 struct SunMask {
