@@ -213,6 +213,8 @@ TEST_F(Bake, sunAndSkyOfEachHourAreLayersOfTheirOwn) {
   ASSERT_EQ(layers.size(), 3u);
   EXPECT_EQ(layers[0]["kind"], "sun");
   EXPECT_EQ(layers[0]["hour"], 12);
+  EXPECT_EQ(layers[0]["sun"]["lux"][1], 50000);
+  EXPECT_EQ(layers[0]["sun"]["mask"]["channels"], 1);
   EXPECT_EQ(layers[1]["kind"], "sky");
   EXPECT_EQ(layers[1]["panorama"]["width"], 256);
   EXPECT_EQ(layers[2]["hour"], 22.5);

@@ -6,7 +6,7 @@ import type { Browser, BrowserContextOptions } from "playwright-core";
 import { falseColour, placeOnScale, roundSteps } from "../../baked/src/false_colour.js";
 import { exposureFromEv100, toned } from "../../baked/src/tone.js";
 import type { Vec3 } from "../../src/vector.js";
-import { bakedHome, kAlbedo, kEv100, kLampLux, kSkyLux, kSunLux } from "../double/baked_home.js";
+import { bakedHome, kAlbedo, kEv100, kLampLux, kSkyLux, kStraightLux, kSunLux } from "../double/baked_home.js";
 import {
   launchWithoutWebGl,
   launchWithWebGl,
@@ -138,6 +138,27 @@ test("a normal map turned to the bright wall has more light", { skip }, async ()
   assert.ok(Math.abs(even - expected) < 0.01, `as layers tell where it is even: ${even}, ${expected}`);
   // Away from it are four walls that are alike.
   assert.ok(to > even + 0.03 && from < even - 0.008, `${from} < ${even} < ${to}`);
+});
+
+test("a patch of sun ends sharply, and the meter tells it", { skip }, async () => {
+  const link = writePage("sun-patch", bakedHome({ sunPatch: true, lamps: false }));
+  // The middle of the floor from above, x to the right.
+  const visit = await opened(`${link}#eye=2,1.6,2.5,0,-89.9,60&ev=${kEv100}&sun=1.100`);
+  const { page } = visit;
+  await visit.shot("baked-sun-patch");
+  const bounced = kSunLux[0]!;
+  const places = [
+    [-80, sum([bounced, 1], [kStraightLux, 1]), /93\d\s*lx/],
+    [80, bounced, /38\d\s*lx/],
+  ] as const;
+  await page.getByLabel("Light meter").check();
+  for (const [x, lux, told] of places) {
+    const seen = await visit.color(320 + x, 270);
+    shown(lux).forEach((c, i) => assert.ok(Math.abs(c - seen[i]!) < 0.015, `${x}: ${seen} is not ${shown(lux)}`));
+    await page.mouse.move(320 + x, 270);
+    await page.getByText(told).waitFor();
+  }
+  await visit.end();
 });
 
 test("automatic exposure follows the light, and stays when it is locked", { skip }, async () => {

@@ -20,9 +20,12 @@ export const kSkyLux: readonly Vec3[] = [
   [80, 90, 120],
   [30, 40, 80],
 ];
+// Straight from the suns, from above, on the half of the floor where x is smaller.
+export const kStraightLux: Vec3 = [600, 540, 480];
 export const kHours = [12, 18] as const;
 export const kEv100 = 6;
 const kTile = 32;
+const kFine = 2;
 const kAtlas = { width: 128, height: 64, tile: kTile } as const;
 const kScale = 1 / 64; // a power of two, so that the lamps' values are kept exactly
 
@@ -32,6 +35,7 @@ interface Options {
   readonly glossy?: boolean; // a mirror of metal for a floor
   readonly brightWall?: boolean; // the one at z = 0 has five times the light
   readonly display?: { readonly ev100: number; readonly tone: string; readonly whiteGains: Vec3 };
+  readonly sunPatch?: boolean; // suns also shine straight onto half of the floor
   readonly floorNormal?: Vec3; // of a normal map: x along x, y along z
 }
 
@@ -137,6 +141,14 @@ const texels = (
   return deflateSync(packTexels(bright ? all.fill(encoded(5), ...bright) : all, width, height));
 };
 
+// Cells of one tile, as differences along rows: 255 in the left half, then 0.
+function halfLit(): Uint8Array {
+  const edge = kFine * kTile;
+  return deflateSync(
+    Uint8Array.from({ length: edge ** 2 }, (_, i) => (i % edge === 0 ? 255 : i % edge === edge / 2 ? 1 : 0)),
+  );
+}
+
 function normalPng(normal: Vec3): Uint8Array {
   const size = 4;
   const pixel = normal.map(c => Math.round(127.5 + 127.5 * c));
@@ -165,7 +177,14 @@ export function glb(json: object, binary: Uint8Array): Uint8Array {
 }
 
 export function bakedHome(options: Options = {}): Uint8Array {
-  const { vertexLit = false, lamps = true, glossy = false, brightWall = false, floorNormal } = options;
+  const {
+    vertexLit = false,
+    lamps = true,
+    glossy = false,
+    brightWall = false,
+    sunPatch = false,
+    floorNormal,
+  } = options;
   const binary = new Binary();
   const { positions, normals, lightUvs, uvs, index } = box();
   const count = positions.length / 3;
@@ -178,6 +197,14 @@ export function bakedHome(options: Options = {}): Uint8Array {
     scale: kScale,
     tiles: [0, 1, 2, 3, 4, 5],
   });
+  const sun = {
+    sun: {
+      direction: [0, 1, 0],
+      lux: kStraightLux,
+      halfAngleDeg: 0.27,
+      mask: { bufferView: sunPatch ? binary.add(halfLit()) : 0, fine: kFine, channels: 1, tiles: [0] },
+    },
+  };
   const accessor = (bufferView: number, componentType: number, type: string, normalized = false, n = count) => ({
     bufferView,
     componentType,
@@ -202,7 +229,7 @@ export function bakedHome(options: Options = {}): Uint8Array {
         ]
       : []),
     ...kHours.flatMap((hour, i) => [
-      { name: `Sun, ${hour}:00`, kind: "sun", hour, on: false, light: light(kSunLux[i]!) },
+      { name: `Sun, ${hour}:00`, kind: "sun", hour, on: false, light: light(kSunLux[i]!), ...(sunPatch ? sun : {}) },
       {
         name: `Sky, ${hour}:00`,
         kind: "sky",
