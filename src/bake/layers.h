@@ -22,11 +22,11 @@ struct BakedLayer {
   Vec3 position;        // of lamps
   bool on = true;
   double hour = 0;      // local time, of sun and sky
-  std::vector<Vec3> lux;       // on each element; of a layer with a sun what does not come straight from it
-  std::vector<float> errorLux; // standard error of its luminance, likewise
-  std::optional<Sun> sun;      // whose straight light
-  SunMask mask;                // is here
-  Image panorama;              // of the sky, equirectangular, cd/m²
+  std::vector<Vec3> lux{};       // on each element; of a layer with a sun what does not come straight from it
+  std::vector<float> errorLux{}; // standard error of its luminance, likewise
+  std::optional<Sun> sun{};      // whose straight light
+  SunMask mask{};                // is here
+  Image panorama{};              // of the sky, equirectangular, cd/m²
 };
 
 struct LayerSettings {
