@@ -16,8 +16,8 @@ namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr float kReachTexels = 0.5f;  // cells so far beyond a chart are read by linear interpolation
-constexpr OffEdge kOffEdge{0.002f, 0.15f};
-constexpr size_t kRays = 16;         // of a cell at the edge of a patch
+constexpr OffEdge kOffEdge{0.0003f, 0.15f};
+constexpr size_t kRays = 32;         // of a cell at the edge of a patch
 constexpr int kNear = 2;          // cells, each way, that must be alike
 constexpr float kAlike = 1.5f / 255;
 constexpr float kMovedTimes = 2;  // by which rays start further off what was simplified
@@ -199,7 +199,11 @@ class MaskMaker {
     refine(cells, facing, [&](size_t i) {
       const SurfaceElement e = on.element(i, kOffEdge);
       const auto inPlane = [&](Vec3 way) { return way - e.normal * dot(way, e.normal); };
-      return rays_.mean(e, off, inPlane(u), inPlane(v), cellInAtlas(i));
+      // A part of the square may be buried where a neighbour is.
+      bool atFoot = false;
+      cells.forEachNear(i, 1, [&](size_t n) { atFoot |= buried[n] != 0; });
+      const float width = atFoot ? 0.0f : 1.0f;
+      return rays_.mean(e, off, inPlane(u) * width, inPlane(v) * width, cellInAtlas(i));
     });
     fillBuried(cells, buried);
     for (size_t i = 0; i < on.count(); ++i) {

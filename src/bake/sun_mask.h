@@ -36,7 +36,7 @@ struct SunCells {
   const std::vector<bool>& buried;   // cells
 };
 
-// By rays in the home as it is. One a cell; where neighbours differ 16, over the cell and the disc of the sun. Cells
+// By rays in the home as it is. One a cell; where neighbours differ 32, over the cell and the disc of the sun. Cells
 // that are buried show what the nearest one does that is not; texels of vertices are even. Does not depend on the
 // number of threads. Nothing once `progress` says stop.
 SunMask sunMaskOf(const SunCells& cells, const RayScene& home, const Sun& sun, const Progress& progress = {});
