@@ -7,10 +7,12 @@
 #include <map>
 #include <tuple>
 
+#include "bake/batch.h"
 #include "bake/glb_materials.h"
 #include "bake/glb_writer.h"
 #include "bake/light_map.h"
 #include "bake/light_texels.h"
+#include "bake/stitch.h"
 #include "photometry/colour_temperature.h"
 
 namespace roomlight::bake {
@@ -23,17 +25,6 @@ struct Grid {
 };
 constexpr float kLongestStepM = 0.0005f;  // things 1 mm apart stay apart
 constexpr float kSteps = 65535;
-
-// Triangles that are drawn at once.
-struct Batch {
-  std::vector<Vec3> positions;
-  std::vector<std::array<int8_t, 4>> normals;
-  std::vector<Vec2> uv;
-  std::vector<std::array<uint16_t, 2>> atlas;
-  std::vector<std::array<uint8_t, 4>> colors, vertexLit;
-  std::vector<uint32_t> indices;
-  bool coloured = false;
-};
 
 std::array<int8_t, 4> packedNormal(Vec3 n) {
   const auto pack = [](float f) { return static_cast<int8_t>(std::lround(std::clamp(f, -1.0f, 1.0f) * 127)); };
@@ -229,6 +220,9 @@ Result<Textures> addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& at
     const bool shines = front || scene.materials[static_cast<size_t>(material)].doubleSided;
     maker.add(placed, batches[{material, shines ? lamps.ofInstance[placed.chart.instance] : kDark}]);
   }
+  std::vector<Batch*> all;
+  for (auto& [key, batch] : batches) all.push_back(&batch);
+  stitch(all);
   Grid grid;
   if (settings.compressed) grid = gridOf(batches);
   GlbMaterials materials(scene, glb, settings);
