@@ -166,7 +166,7 @@ export type Room = Home["rooms"][number];
 export type Camera = Home["cameras"][number];
 export type ToneName = Home["display"]["tone"];
 
-const kFinest = 16; // cells along the edge of a texel
+const kMostCells = 1024; // along the edge of a tile
 const kVersion = 3; // that bake writes
 const versionOnly = v.object({ extensions: v.object({ ROOMLIGHT_light_layers: v.object({ version: whole }) }) });
 
@@ -192,9 +192,9 @@ function checkTiles({ atlas, layers }: Home): void {
   const fine = layers.find(layer => layer.sun)?.sun?.mask.fine;
   layers.forEach(({ light, sun }, i) => {
     for (const [what, tiles] of [["light", light.tiles] as const, ["sun.mask", sun?.mask.tiles ?? []] as const])
-      if (tiles.some(tile => tile >= count))
+      if (tiles.length > count || tiles.some(tile => tile >= count))
         throw new BadFile("damaged", `layers.${i}.${what}.tiles: the atlas has ${count}`);
-    if (sun && (sun.mask.fine !== fine || fine > kFinest))
+    if (sun && (sun.mask.fine !== fine || fine * atlas.tile > kMostCells))
       throw new BadFile("damaged", `layers.${i}.sun.mask.fine: ${sun.mask.fine}`);
   });
 }

@@ -72,3 +72,38 @@ test("a home without such suns needs no cells", () => {
   assert.deepEqual(sunlight.defines, {});
   sunlight.update([[1, 1, 1]]);
 });
+
+test("masks with cells or tiles that cannot be are faults", () => {
+  const { json } = parseGlb(bakedHome({ sunPatch: true }));
+  const faulty = (change: (mask: { fine: number; channels: number; tiles: number[] }) => void) => {
+    const copy = JSON.parse(JSON.stringify(json)) as {
+      extensions: {
+        ROOMLIGHT_light_layers: { layers: { sun?: { mask: { fine: number; channels: number; tiles: number[] } } }[] };
+      };
+    };
+    change(copy.extensions.ROOMLIGHT_light_layers.layers.find(l => l.sun)!.sun!.mask);
+    return () => checkDocument(copy);
+  };
+  assert.doesNotThrow(faulty(() => undefined));
+  assert.throws(
+    faulty(mask => (mask.fine = 64)),
+    /sun\.mask\.fine/,
+  );
+  assert.throws(
+    faulty(mask => (mask.fine = 3)),
+    /sun\.mask\.fine/,
+    "not that of other hours",
+  );
+  assert.throws(
+    faulty(mask => (mask.channels = 2)),
+    /channels/,
+  );
+  assert.throws(
+    faulty(mask => (mask.tiles = [8])),
+    /sun\.mask\.tiles/,
+  );
+  assert.throws(
+    faulty(mask => (mask.tiles = new Array<number>(1000).fill(0))),
+    /sun\.mask\.tiles/,
+  );
+});
