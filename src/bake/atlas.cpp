@@ -11,6 +11,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "bake/shared_vertices.h"
 #include "trace/light_layers.h"
 
 namespace roomlight::bake {
@@ -42,48 +43,16 @@ ChartGrid gridOf(const Chart& chart, float texelM, bool outside) {
            static_cast<float>(h - 1) / std::max(chart.sizeM.y, 1e-6f)}};
 }
 
-// Vertices of a chart; those at one place whose normals agree share a texel.
-class SharedVertices {
- public:
-  struct Place {
-    Vec3 position, normal;  // the normal by area
-    Vec3 middle;            // of its largest triangle: between several is inside of what is round
-    float largest = 0;
-  };
-  // A corner of a triangle. The number of the vertex in the chart.
-  uint32_t add(uint32_t vertex, Vec3 position, Vec3 normal, const std::array<Vec3, 3>& triangle) {
-    const auto [entry, isNew] = numbers_.emplace(vertex, static_cast<uint32_t>(vertices_.size()));
-    if (isNew) {
-      const auto coarse = [](float f) { return std::round(f * kNormalSteps); };
-      const std::array key{position.x, position.y, position.z, coarse(normal.x), coarse(normal.y), coarse(normal.z)};
-      const auto [place, first] = known_.emplace(key, places_.size());
-      if (first) places_.push_back({position, Vec3(0), Vec3(0), 0});
-      vertices_.push_back(vertex), placeOf_.push_back(place->second);
-    }
-    Place& place = places_[placeOf_[entry->second]];
-    const float area = length(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-    place.normal += normal * area;
-    if (area > place.largest) place.middle = (triangle[0] + triangle[1] + triangle[2]) / 3, place.largest = area;
-    return entry->second;
-  }
-  size_t count() const { return vertices_.size(); }
-  uint32_t vertex(size_t number) const { return vertices_[number]; }
-  size_t placeOf(size_t number) const { return placeOf_[number]; }
-  const std::vector<Place>& places() const { return places_; }
-
- private:
-  static constexpr float kNormalSteps = 8;
-  std::unordered_map<uint32_t, uint32_t> numbers_;
-  std::map<std::array<float, 6>, size_t> known_;
-  std::vector<Place> places_;
-  std::vector<uint32_t> vertices_;
-  std::vector<size_t> placeOf_;
-};
+// How near to each other vertices of a fine thing share a texel.
+float shareM(const AtlasSettings& settings, const Chart& chart) {
+  return settings.vertexM * (settings.coarser.empty() ? 1 : settings.coarser[chart.instance]);
+}
 
 // Writes charts into an atlas, one after the other.
 class AtlasWriter {
  public:
-  AtlasWriter(const Scene& scene, Atlas& atlas) : scene_(scene), atlas_(atlas) {}
+  AtlasWriter(const Scene& scene, const AtlasSettings& settings, Atlas& atlas)
+      : scene_(scene), settings_(settings), atlas_(atlas) {}
 
   void add(Chart chart, const ChartGrid& grid, int x, int y) {
     if (chart.byVertices) {
@@ -155,17 +124,7 @@ class AtlasWriter {
 
   void addVertices(Chart chart, int width, int x, int y) {
     PlacedChart placed;
-    SharedVertices shared;
-    const ChartSurface surface(scene_, chart);
-    for (const uint32_t t : chart.triangles) {
-      const std::array<uint32_t, 3> c = surface.cornersOf(t);
-      const std::array<Vec3, 3> p = surface.placesOf(c);
-      const Vec3 geometric = ChartSurface::geometricNormal(p);
-      for (size_t k = 0; k < 3; ++k) {
-        const Vec3 n = surface.normalAt(t, geometric, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
-        placed.indices.push_back(shared.add(c[k], p[k], n, p));
-      }
-    }
+    const SharedVertices shared = sharedVerticesOf(scene_, chart, shareM(settings_, chart), &placed.indices);
     const std::vector<SharedVertices::Place>& places = shared.places();
     const auto texelOf = [&](size_t place) {
       return std::pair{x + static_cast<int>(place) % width, y + static_cast<int>(place) / width};
@@ -183,19 +142,9 @@ class AtlasWriter {
   }
 
   const Scene& scene_;
+  const AtlasSettings& settings_;
   Atlas& atlas_;
 };
-
-// At most so many texels of vertices: those that share one are told only when they are written.
-size_t vertexCount(const Scene& scene, const Chart& chart) {
-  const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[chart.instance].mesh)];
-  std::vector<uint32_t> vertices;
-  for (const uint32_t t : chart.triangles) {
-    for (size_t k = 0; k < 3; ++k) vertices.push_back(mesh.indices[3 * t + k]);
-  }
-  std::sort(vertices.begin(), vertices.end());
-  return static_cast<size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
-}
 
 // Where charts will lie.
 struct Layout {
@@ -223,7 +172,8 @@ Layout layoutOf(const Scene& scene, const std::vector<Chart>& charts, const Atla
     for (const size_t i : members) {
       const bool fine = charts[i].byVertices;
       const ChartGrid grid =
-          fine ? vertexGrid(vertexCount(scene, charts[i])) : gridOf(charts[i], settings.texelM, room < 0);
+          fine ? vertexGrid(sharedVerticesOf(scene, charts[i], shareM(settings, charts[i])).places().size())
+               : gridOf(charts[i], settings.texelM, room < 0);
       const int gap = fine ? 0 : 2 * kGap;
       rects.push_back({static_cast<int>(out.grids.size()), grid.width + gap, grid.height + gap, 0, 0, 0});
       out.grids.push_back(grid), out.order.push_back(i);
@@ -253,7 +203,7 @@ Result<Atlas> atlasOf(const Scene& scene, std::vector<Chart> charts, AtlasSettin
   }
   Atlas atlas;
   atlas.width = layout.width, atlas.height = layout.height;
-  AtlasWriter writer(scene, atlas);
+  AtlasWriter writer(scene, settings, atlas);
   for (const stbrp_rect& rect : layout.rects) {
     const auto k = static_cast<size_t>(rect.id);
     writer.add(std::move(charts[layout.order[k]]), layout.grids[k], rect.x, rect.y);

@@ -17,6 +17,8 @@ struct AtlasSettings {
   float texelM = 0.05f;
   int width = 2048;  // texels, a multiple of the tile
   int tile = 32;     // texels; rooms begin with new rows of tiles
+  float vertexM = 0.02f;       // about so near to each other vertices of fine things share a texel,
+  std::vector<float> coarser = {};  // times this, by instance; empty: 1
 };
 
 // A corner of a lit triangle: a vertex of an instance's mesh on one side.

@@ -10,6 +10,7 @@
 #include "bake/light_texels.h"
 #include "bake/lit_places.h"
 #include "bake/simplify.h"
+#include "bake/thin_covers.h"
 #include "home/cameras.h"
 #include "look/display.h"
 #include "report/page.h"
@@ -61,17 +62,23 @@ struct LaidOut {
   SunCells sunCells() const { return {scene, atlas, lit, movedM, buriedCells}; }
 };
 
+constexpr float kGapsOfError = 4;  // larger ones do not matter
+
 Result<LaidOut> layOut(const RayScene& home, bool sun, const BakeSettings& settings, Stages& stages) {
   Scene scene = home.scene();
-  std::vector<float> moved =
-      stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM); });
+  const std::vector<Vec3> eyes = eyesIn(home);
+  AtlasSettings ofAtlas = settings.atlas;
+  ofAtlas.coarser = coarserFar(scene, eyes);
+  std::vector<float> moved = stages.run("simplify", [&](const Progress&) {
+    const std::vector<float> gaps = gapsOf(home, kGapsOfError * settings.simplifyM);
+    return simplifyMeshes(scene, {settings.simplifyM, ofAtlas.coarser, gaps});
+  });
   const RayScene rays(scene);
   const SeenSides seen = stages.run("seen", [&](const Progress&) {
-    const std::vector<Vec3> eyes = eyesIn(rays);
     return seenFrom(rays, eyes, std::max(settings.seenRays, eyes.size() * settings.raysAnEye));
   });
   return stages.run("charts", [&](const Progress&) -> Result<LaidOut> {
-    Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
+    Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), ofAtlas);
     if (!atlas) return Error{atlas.error()};
     LitPlaces lit = litPlacesOf(atlas.value(), rays, seen, settings.placesApartM);
     std::vector<bool> buried;

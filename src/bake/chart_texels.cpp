@@ -118,7 +118,8 @@ void ChartTexels::cover(uint32_t triangle) {
     for (int x = from(c[0].x, c[1].x, c[2].x); x <= to(c[0].x, c[1].x, c[2].x, width_); ++x) {
       Corner& best = nearest_[static_cast<size_t>(y * width_ + x)];
       const Nearest here = nearestIn(c, {static_cast<float>(x), static_cast<float>(y)});
-      if (here.distance2 < best.distance2) best = {triangle, here.distance2, here.b1, here.b2};
+      if (here.distance2 < best.distance2 && here.distance2 <= reach * reach)
+        best = {triangle, here.distance2, here.b1, here.b2};
     }
   }
 }

@@ -128,21 +128,19 @@ Status GlbMaterials::addTextures(const Material& m, Json& json, Json& pbr) {
   return add(m.emissionTexture, json, "emissiveTexture", usual);
 }
 
-// A pane or a sheet of glass lets through what is behind it and adds what it reflects.
+// Glass lets through what is behind it and adds what it reflects; alpha is how much of a place is covered at all.
 void GlbMaterials::addTransparency(const Material& m, Json& json, Json& pbr) {
   Vec3 color = m.baseColor;
-  float alpha = m.alpha;
-  const bool pane = m.glazing.panes > 0;
-  if (pane) {
-    alpha = 1 - glazingLight(m.glazing, 1).transmitted;
-    color = Vec3(0);
+  float transmission = m.metallic < 1 ? m.transmission : 0;
+  if (m.glazing.panes > 0) {
+    // All that is not reflected passes, tinted: nothing is scattered.
+    color = Vec3(glazingLight(m.glazing, 1).transmitted), transmission = 1;
     pbr["roughnessFactor"] = 0, pbr["metallicFactor"] = 0;
-  } else if (m.transmission > 0) {
-    alpha *= 1 - m.transmission * luminance(m.baseColor);
   }
   color = min(max(color, Vec3(0)), Vec3(1));
-  pbr["baseColorFactor"] = {color.x, color.y, color.z, std::clamp(alpha, 0.0f, 1.0f)};
-  if (pane || m.transmission > 0 || m.alphaMode == AlphaMode::Blend) {
+  pbr["baseColorFactor"] = {color.x, color.y, color.z, std::clamp(m.alpha, 0.0f, 1.0f)};
+  if (transmission > 0) json["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", transmission}};
+  if (m.alphaMode == AlphaMode::Blend) {
     json["alphaMode"] = "BLEND";
   } else if (m.alphaMode == AlphaMode::Mask) {
     json["alphaMode"] = "MASK", json["alphaCutoff"] = m.alphaCutoff;
@@ -173,8 +171,8 @@ Result<int> GlbMaterials::add(int number, int layer, bool shines) {
 void GlbMaterials::finish() {
   // Normals are bytes.
   Json used = Json::array({"KHR_mesh_quantization"}), required = used;
-  for (const char* name :
-       {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular", "MOZ_lightmap"}) {
+  for (const char* name : {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
+                           "KHR_materials_transmission", "MOZ_lightmap"}) {
     if (std::any_of(materials_.begin(), materials_.end(),
                     [&](const Json& m) { return m.contains("extensions") && m["extensions"].contains(name); }))
       used.push_back(name);

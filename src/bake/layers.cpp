@@ -13,6 +13,9 @@
 namespace roomlight::bake {
 namespace {
 
+constexpr float kWidestMaskedRad =
+    0.035f;  // wider discs are partly below a surface's horizon where their middle is not
+
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr float kLeastLux = 1e-4f;    // a layer that gives nothing more is none
 constexpr int kReach = 3;           // neighbours that a pass of smoothing looks at, each way
@@ -168,7 +171,7 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
     if (!light.value()) return out;
     BakedLayer layer{sun ? "Sun" : "Sky", sun ? LayerRole::Sun : LayerRole::Sky, {}, {}, true, hour};
     LayerSettings ofLayer = settings;
-    if (sun && scene.suns.size() == 1) {
+    if (sun && scene.suns.size() == 1 && scene.suns.front().halfAngleRad <= kWidestMaskedRad) {
       layer.sun = scene.suns.front(), ofLayer.meters.straightSuns = false;
       layer.mask = stages.run(
           "sun mask", [&](const Progress& p) { return sunMaskOf(cells, light.value()->rays(), *layer.sun, p); });

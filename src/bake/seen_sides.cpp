@@ -5,6 +5,7 @@
 #include <atomic>
 #include <map>
 
+#include "bake/watchers.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/sampling.h"
@@ -18,6 +19,8 @@ namespace {
 constexpr float kEyesApartM = 0.6f;
 constexpr float kHeightsM[] = {0.5f, 1.1f, 1.65f};  // a child or someone lying, sitting, standing
 constexpr int kSurfaces = 12;                       // along one ray
+constexpr float kGrazing = 0.01f;  // cosine: rays along a surface slip through the edges of what is closed
+constexpr float kSamePlaceM = 0.0003f;  // of two surfaces so near to each other one is seen
 constexpr size_t kFewEyes = 6;  // that see each other, and no others of their room: they are shut in
 
 bool letsThrough(const Material& m) {
@@ -94,6 +97,80 @@ class EyeGrid {
   std::map<Place, Eye> eyes_;
 };
 
+class Look {
+ public:
+  Look(const RayScene& rays, std::span<const Vec3> eyes, SeenSides& seen) : rays_(rays), eyes_(eyes), seen_(seen) {}
+
+  void around(size_t count) {
+    const size_t recorded = std::min(count, kRecordedRays);
+    std::vector<Watchers::Sighting> sightings(recorded * kOfRay);
+    parallelFor(count, 1024, [&](size_t i) {
+      const size_t eye = i % eyes_.size();
+      Sampler sampler(eye, static_cast<uint32_t>(i / eyes_.size()), 0);
+      size_t k = 0;
+      along({eyes_[eye], sampleSphere(sampler.next2())}, [&](const Hit& hit, Vec3 p, bool back) {
+        seen_.mark(hit.instance, hit.triangle, back);
+        if (i < recorded) sightings[i * kOfRay + k++ % kOfRay] = {Watchers::cellOf(p), static_cast<uint32_t>(eye)};
+        return true;
+      });
+    });
+    std::erase_if(sightings, [](const Watchers::Sighting& s) { return s.cell == 0; });
+    watchers_ = Watchers(std::move(sightings));
+  }
+
+  void again() {
+    const Scene& scene = rays_.scene();
+    const SeenSides met = seen_;  // what others find meanwhile does not count
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+      const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
+      parallelFor(mesh.triangleCount(), 256, [&](size_t t) {
+        const auto triangle = static_cast<uint32_t>(t);
+        for (const bool back : {false, true}) {
+          if (!met.seen(i, triangle, back) && watched(i, triangle, back)) seen_.mark(i, triangle, back);
+        }
+      });
+    }
+  }
+
+ private:
+  // `meets(hit, place, back)` of each surface along a ray, as long as it says to go on.
+  template <class Meets>
+  void along(Ray ray, Meets&& meets) const {
+    for (int k = 0; k < kSurfaces; ++k) {
+      const Hit hit = rays_.intersect(ray);
+      if (!hit.valid()) return;
+      const SurfacePlace place = placeAt(rays_.scene(), hit, ray.direction);
+      if (!meets(hit, place.p, meetsBack(rays_.scene(), hit, ray.direction)) || !letsThrough(*place.material)) return;
+      ray.origin = offsetOrigin(place.p, -place.ng);
+    }
+  }
+
+  bool watched(uint32_t instance, uint32_t triangle, bool back) const {
+    const TriangleVertices v = worldTriangle(rays_.scene(), instance, triangle);
+    const Vec3 normal = cross(v.b - v.a, v.c - v.a) * (back ? -1.0f : 1.0f);
+    Sampler sampler(triangle, 0, instance);
+    int found = 0, covered = 0;
+    for (const uint32_t eye : watchers_.of((v.a + v.b + v.c) / 3)) {
+      const Vec2 b = sampleTriangle(sampler.next2());
+      const Vec3 target = v.a + (v.b - v.a) * b.x + (v.c - v.a) * b.y, way = target - eyes_[eye];
+      if (!(dot(way, normal) < -kGrazing * length(way) * length(normal))) continue;
+      along({eyes_[eye], normalize(way)}, [&](const Hit& hit, Vec3 p, bool) {
+        const bool same = hit.instance == instance && hit.triangle == triangle;
+        found += same, covered += !same && length(p - target) < kSamePlaceM;
+        return !same;
+      });
+      if (found > 1 && covered == 0) return true;
+    }
+    return found > covered;
+  }
+
+  static constexpr size_t kOfRay = 2, kRecordedRays = size_t{1} << 21;  // sightings: the last ones of each ray
+  const RayScene& rays_;
+  const std::span<const Vec3> eyes_;
+  SeenSides& seen_;
+  Watchers watchers_{{}};
+};
+
 }  // namespace
 
 SeenSides::SeenSides(const Scene& scene) {
@@ -105,8 +182,8 @@ SeenSides::SeenSides(const Scene& scene) {
   sides_.resize(count);
 }
 
-void SeenSides::mark(const Hit& hit, bool back) {
-  std::atomic_ref(sides_[first_[hit.instance] + hit.triangle])
+void SeenSides::mark(uint32_t instance, uint32_t triangle, bool back) {
+  std::atomic_ref(sides_[first_[instance] + triangle])
       .fetch_or(static_cast<uint8_t>(back ? 2 : 1), std::memory_order_relaxed);
 }
 
@@ -137,29 +214,19 @@ size_t cameraInUse(const Scene& scene, const std::vector<Camera>& cameras) {
 
 std::vector<Vec3> eyesIn(const RayScene& rays) {
   std::vector<Vec3> eyes;
+  for (const Camera& camera : camerasInside(rays.scene())) eyes.push_back(camera.worldFromCamera.w);
   for (const Room& room : rays.scene().rooms) {
     if (!room.floor.empty()) EyeGrid(rays, room).addOpen(eyes);
   }
-  for (const Camera& camera : camerasInside(rays.scene())) eyes.push_back(camera.worldFromCamera.w);
   return eyes;
 }
 
 SeenSides seenFrom(const RayScene& rays, std::span<const Vec3> eyes, size_t count) {
-  const Scene& scene = rays.scene();
-  SeenSides seen(scene);
+  SeenSides seen(rays.scene());
   if (eyes.empty()) return seen;
-  parallelFor(count, 1024, [&](size_t i) {
-    Sampler sampler(i % eyes.size(), static_cast<uint32_t>(i / eyes.size()), 0);
-    Ray ray{eyes[i % eyes.size()], sampleSphere(sampler.next2())};
-    for (int k = 0; k < kSurfaces; ++k) {
-      const Hit hit = rays.intersect(ray);
-      if (!hit.valid()) return;
-      const SurfacePlace place = placeAt(scene, hit, ray.direction);
-      seen.mark(hit, meetsBack(scene, hit, ray.direction));
-      if (!letsThrough(*place.material)) return;
-      ray.origin = offsetOrigin(place.p, -place.ng);
-    }
-  });
+  Look look(rays, eyes, seen);
+  look.around(count);
+  look.again();
   return seen;
 }
 

@@ -16,7 +16,7 @@ class SeenSides {
   bool seen(uint32_t instance, uint32_t triangle, bool back) const {
     return (sides_[first_[instance] + triangle] & (back ? 2 : 1)) != 0;
   }
-  void mark(const Hit& hit, bool back);  // from many threads
+  void mark(uint32_t instance, uint32_t triangle, bool back);  // from many threads
 
  private:
   std::vector<size_t> first_;   // of each instance
@@ -32,11 +32,12 @@ std::vector<Camera> camerasInside(const Scene& scene);
 // The number of the scene's own camera among those; else the first.
 size_t cameraInUse(const Scene& scene, const std::vector<Camera>& cameras);
 
-// Places at the height of eyes and hips in every room of the scene, where people can stand, and the cameras inside.
+// The cameras inside, and places at the height of eyes and hips in every room of the scene, where people can stand.
 std::vector<Vec3> eyesIn(const RayScene& rays);
 
-// By `count` rays from the eyes in all directions, which go on through panes and whatever lets light pass. Does not
-// depend on the number of threads.
+// By `count` rays from the eyes in all directions, which go on through panes and whatever lets light pass; then by rays
+// to each side that was not met, from eyes that saw something near: a leaf in the garden is too small to be met by
+// chance. Does not depend on the number of threads.
 SeenSides seenFrom(const RayScene& rays, std::span<const Vec3> eyes, size_t count);
 
 }  // namespace roomlight::bake

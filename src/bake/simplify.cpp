@@ -14,15 +14,29 @@ namespace roomlight::bake {
 namespace {
 
 constexpr size_t kFewTriangles = 64;
+constexpr float kLeastErrorM =
+    0.0001f;  // above thin covers: smaller ones save little, and are missed by more than they are
+constexpr float kFurthestM = 20;       // from eyes, that counts
 constexpr float kOfThickness = 0.01f;  // of its thickness a mesh may be off: planks, tiles and rugs lie on other things
 
-// The smallest extent of each mesh as it is placed.
-std::vector<float> thicknesses(const Scene& scene) {
-  std::vector<float> out(scene.meshes.size(), kInfinity);
-  for (const Instance& i : scene.instances) {
+float largestStretch(const Affine& a) { return std::max({length(a.x), length(a.y), length(a.z)}); }
+
+// Of a mesh, over all its instances.
+struct Placed {
+  float stretch = 0;  // the largest
+  float thicknessM = kInfinity;  // the smallest extent
+  float coarser = kInfinity;  // the least
+};
+
+std::vector<Placed> placedMeshes(const Scene& scene, std::span<const float> coarser) {
+  std::vector<Placed> out(scene.meshes.size());
+  for (size_t k = 0; k < scene.instances.size(); ++k) {
+    const Instance& i = scene.instances[k];
     const Vec3 size = instanceBounds(scene, i).size();
-    float& thickness = out[static_cast<size_t>(i.mesh)];
-    thickness = std::min({thickness, size.x, size.y, size.z});
+    Placed& p = out[static_cast<size_t>(i.mesh)];
+    p.stretch = std::max(p.stretch, largestStretch(i.worldFromObject));
+    p.thicknessM = std::min({p.thicknessM, size.x, size.y, size.z});
+    p.coarser = std::min(p.coarser, coarser.empty() ? 1 : coarser[k]);
   }
   return out;
 }
@@ -93,29 +107,38 @@ void mendNormals(Mesh& mesh, const std::vector<Corners>& before) {
   }
 }
 
-float largestStretch(const Affine& a) { return std::max({length(a.x), length(a.y), length(a.z)}); }
-
 }  // namespace
 
-std::vector<float> simplifyMeshes(Scene& scene, float errorM) {
-  std::vector<float> stretch(scene.meshes.size(), 0);
-  for (const Instance& instance : scene.instances) {
-    float& s = stretch[static_cast<size_t>(instance.mesh)];
-    s = std::max(s, largestStretch(instance.worldFromObject));
+std::vector<float> coarserFar(const Scene& scene, std::span<const Vec3> eyes) {
+  std::vector<float> out;
+  for (const Instance& i : scene.instances) {
+    const Bounds3 bounds = instanceBounds(scene, i);
+    float m = eyes.empty() ? 1 : kFurthestM;
+    for (const Vec3 eye : eyes) m = std::min(m, length(max(min(eye, bounds.hi), bounds.lo) - eye));
+    out.push_back(std::max(m, 1.0f));
   }
-  const std::vector<float> thickness = thicknesses(scene);
+  return out;
+}
+
+std::vector<float> simplifyMeshes(Scene& scene, const SimplifyBounds& bounds) {
+  const std::vector<Placed> placed = placedMeshes(scene, bounds.coarser);
   std::vector<float> moved(scene.meshes.size(), 0);
   parallelFor(scene.meshes.size(), 1, [&](size_t i) {
     Mesh& mesh = scene.meshes[i];
-    if (mesh.triangleCount() < kFewTriangles || !(stretch[i] > 0)) return;
+    if (mesh.triangleCount() < kFewTriangles || !(placed[i].stretch > 0)) return;
     const float* positions = &mesh.positions.front().x;
     const float scale = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(Vec3));
     if (!(scale > 0)) return;
-    const float most = std::min(errorM, kOfThickness * thickness[i]);
+    float most = std::min(bounds.errorM * placed[i].coarser, kOfThickness * placed[i].thicknessM);
+    if (!bounds.gapsM.empty()) {
+      const float share = bounds.gapsM[i] / 3;  // the other surface moves too
+      if (share < kLeastErrorM) return;
+      most = std::min(most, share);
+    }
     std::vector<uint32_t> indices(mesh.indices.size());
     const size_t count =
         meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions, mesh.positions.size(),
-                         sizeof(Vec3), 0, most / (stretch[i] * scale), 0, nullptr);
+                         sizeof(Vec3), 0, most / (placed[i].stretch * scale), 0, nullptr);
     if (count == 0 || count == indices.size()) return;  // a thing as small as the error stays as it is
     indices.resize(count);
     std::vector<Corners> before = cornersOf(mesh.indices);

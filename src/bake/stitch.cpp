@@ -152,6 +152,12 @@ class Splitter {
 
 void stitch(std::span<Batch* const> batches) {
   Points points;
+  // What is lit by vertices stays where it is, so that others come to it.
+  for (const Batch* batch : batches) {
+    for (size_t v = 0; v < batch->positions.size(); ++v) {
+      if (batch->vertexLit[v][0] != 0) points.add(batch->positions[v]);
+    }
+  }
   std::vector<std::vector<uint32_t>> pointOf;
   for (Batch* batch : batches) {
     std::vector<uint32_t>& of = pointOf.emplace_back(batch->positions.size());

@@ -15,7 +15,7 @@ namespace roomlight::bake {
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-constexpr float kReachTexels = 0.5f;  // cells so far beyond a chart are read by linear interpolation
+constexpr float kReachTexels = 1.35f;  // beyond a chart: all cells of texels that have elements
 constexpr OffEdge kOffEdge{0.0003f, 0.15f};
 constexpr size_t kRays = 32;         // of a cell at the edge of a patch
 constexpr int kNear = 2;          // cells, each way, that must be alike
@@ -202,8 +202,7 @@ class MaskMaker {
       // A part of the square may be buried where a neighbour is.
       bool atFoot = false;
       cells.forEachNear(i, 1, [&](size_t n) { atFoot |= buried[n] != 0; });
-      const float width = atFoot ? 0.0f : 1.0f;
-      return rays_.mean(e, off, inPlane(u) * width, inPlane(v) * width, cellInAtlas(i));
+      return rays_.mean(e, off, atFoot ? Vec3() : inPlane(u), atFoot ? Vec3() : inPlane(v), cellInAtlas(i));
     });
     fillBuried(cells, buried);
     for (size_t i = 0; i < on.count(); ++i) {

@@ -58,7 +58,7 @@ struct MeterSamples {
     for (int k = 0; k < count; ++k) {
       Sampler sampler(mix64(stream.meter + kMeterKey), static_cast<uint32_t>(stream.first + k), stream.seed);
       const auto firstShadow = static_cast<uint32_t>(shadows.size());
-      if (element.footprintM > 0 && sharp.count() > 0)
+      if (element.footprintM > 0 && sharp.count() > untraced)
         origin = placeWithin(rays, element, sampler.forked(kPlaceKey).next2());
       for (size_t i = 0; i < sharp.count(); ++i) {
         const Vec2 u = sampler.next2();

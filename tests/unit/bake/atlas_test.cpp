@@ -12,11 +12,8 @@ namespace {
 Atlas atlasOfAll(const Scene& scene, const AtlasSettings& settings = {}) {
   SeenSides seen(scene);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    for (uint32_t t = 0; t < scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); ++t) {
-      Hit hit;
-      hit.instance = i, hit.triangle = t;
-      seen.mark(hit, false);
-    }
+    for (uint32_t t = 0; t < scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); ++t)
+      seen.mark(i, t, false);
   }
   ChartSettings charts;
   charts.texelM = settings.texelM;
@@ -110,14 +107,10 @@ TEST(Atlas, whatDoesNotFitGetsLongerTexels) {
   scene.rooms = {floor};
   SeenSides seen(scene);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    for (uint32_t t = 0; t < 2; ++t) {
-      Hit hit;
-      hit.instance = i, hit.triangle = t;
-      seen.mark(hit, false);
-    }
+    for (uint32_t t = 0; t < 2; ++t) seen.mark(i, t, false);
   }
   const std::vector<Chart> charts = chartsOf(scene, seen, {});
-  const AtlasSettings fine{0.007f, 2048, 32};
+  const AtlasSettings fine{0.007f, 2048, 32, 0, {}};
   const Atlas atlas = atlasOf(scene, charts, fine).value();
   EXPECT_LE(atlas.height, kMostAtlasEdge);
   EXPECT_EQ(atlas.width, kMostAtlasEdge);

@@ -11,10 +11,8 @@ SeenSides allSeen(const Scene& scene, bool front, bool back) {
   SeenSides seen(scene);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     for (uint32_t t = 0; t < scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); ++t) {
-      Hit hit;
-      hit.instance = i, hit.triangle = t;
-      if (front) seen.mark(hit, false);
-      if (back) seen.mark(hit, true);
+      if (front) seen.mark(i, t, false);
+      if (back) seen.mark(i, t, true);
     }
   }
   return seen;

@@ -64,5 +64,26 @@ TEST(SeenSides, throughAPaneButNotThroughAWall) {
   EXPECT_FALSE(any(2));
 }
 
+TEST(SeenSides, leavesInTheGardenAreAllSeen) {
+  Scene scene;
+  const int grey = addMaterial(scene, lambertian(0.5f));
+  addRectangle(scene, {-2, 0, -1}, {1, 0, 0}, {0, 2, 0}, grey);  // a wall with an opening
+  addRectangle(scene, {1, 0, -1}, {1, 0, 0}, {0, 2, 0}, grey);
+  const auto leaves = static_cast<uint32_t>(scene.instances.size());
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 low{-0.5f + 0.05f * static_cast<float>(i % 20), 0.5f + 0.05f * static_cast<float>(i / 20), -8};
+    addRectangle(scene, low, {0.02f, 0, 0}, {0, 0.02f, 0}, grey);
+  }
+  const RayScene rays(scene);
+  const std::vector<Vec3> eyes{{0, 1, 0}, {0.2f, 1, 0}, {-0.2f, 1, 0}};
+  const SeenSides seen = seenFrom(rays, eyes, 1 << 18);
+  size_t fronts = 0, backs = 0;
+  for (uint32_t i = leaves; i < leaves + 400; ++i) {
+    for (uint32_t t = 0; t < 2; ++t) fronts += seen.seen(i, t, false), backs += seen.seen(i, t, true);
+  }
+  EXPECT_EQ(fronts, 800u);
+  EXPECT_EQ(backs, 0u);
+}
+
 }  // namespace
 }  // namespace roomlight::bake

@@ -65,14 +65,19 @@ TEST(Stitch, verticesThatAreAllButAtOnePlaceComeTogether) {
   EXPECT_EQ(right.indices.size(), 6u);
 }
 
-TEST(Stitch, whatIsLitByVerticesStaysAsItIs) {
+TEST(Stitch, whatIsLitByVerticesStaysAndOthersComeToIt) {
   Batch floor, fine;
   addFloor(floor, {0, 6}, {0, 2});
   addFloor(fine, {2, 4}, {2, 3}, true);
+  floor.positions[0].x += 0.0002f;
+  addFloor(fine, {0, 2}, {-2, 0}, true);
+  const std::vector<Vec3> before = fine.positions;
   const std::array<Batch*, 2> all{&floor, &fine};
   stitch(all);
-  EXPECT_EQ(floor.indices.size(), 6u);
-  EXPECT_EQ(fine.indices.size(), 6u);
+  EXPECT_EQ(fine.indices.size(), 12u);
+  EXPECT_EQ(fine.positions, before);
+  EXPECT_NE(std::find(before.begin(), before.end(), floor.positions[0]), before.end());
+  EXPECT_GT(floor.indices.size(), 6u);  // corners of the fine floor lie on an edge
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ export class App {
     this.stage.complete = true;
     const { positions, index } = this.loaded.geometry;
     const world = new Bvh(positions, index);
-    this.stage.world = world;
+    this.stage.useWorld(world);
     this.mover.useWorld(world);
     this.canEnterVr = await headsetSupported();
     this.refresh();

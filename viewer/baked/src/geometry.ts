@@ -111,9 +111,11 @@ export function mapsOf(document: Gltf, material: Material | undefined): Maps {
 }
 
 // Images that are repeated base colours of solid materials without other images.
-function packable(document: Gltf, { alphaMode, pbrMetallicRoughness: { baseColorTexture: base } }: Material): boolean {
+function packable(document: Gltf, material: Material): boolean {
+  const base = material.pbrMetallicRoughness.baseColorTexture;
   const { wrapS, wrapT } = document.samplers[document.textures[base?.index ?? -1]?.sampler ?? -1] ?? {};
-  return alphaMode === "OPAQUE" && (wrapS ?? kRepeat) === kRepeat && (wrapT ?? kRepeat) === kRepeat;
+  const solid = material.alphaMode === "OPAQUE" && !isPane(material);
+  return solid && (wrapS ?? kRepeat) === kRepeat && (wrapT ?? kRepeat) === kRepeat;
 }
 
 function imagesToPack(document: Gltf): number[] {

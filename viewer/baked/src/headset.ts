@@ -65,6 +65,7 @@ export class Headset {
       this.marker.visible = false; // not in reflections
       this.stage.reflect();
       this.aim();
+      this.stage.surfaces.orderPanes(new THREE.Vector3().setFromMatrixPosition(renderer.xr.getCamera().matrixWorld));
       renderer.setRenderTarget(eyes);
       renderer.clear();
       renderer.render(scene, this.camera);

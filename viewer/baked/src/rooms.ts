@@ -1,6 +1,9 @@
 // Which room a place is in, and the box around a room.
 import type { Vec3 } from "../../src/vector.js";
+import type { Bvh } from "./bvh.js";
 import type { Room } from "./document.js";
+
+const kBeforeSurfaceM = 0.05;
 
 export interface Box {
   readonly low: Vec3;
@@ -23,6 +26,15 @@ export function roomAt(rooms: readonly Room[], [x, y, z]: Vec3): number | null {
     room => y >= room.elevationM - 0.1 && y <= room.elevationM + room.heightM && insideOutline(room.floor, x, z),
   );
   return found < 0 ? null : found;
+}
+
+// The room that an eye is in. Before an open side or above a missing ceiling it is that of what the eye looks at.
+export function roomInView(rooms: readonly Room[], world: Bvh | null, eye: Vec3, ahead: Vec3): number | null {
+  const around = roomAt(rooms, eye);
+  const hit = around === null ? world?.raycast(eye, ahead) : null;
+  if (!hit) return around;
+  const [x, y, z] = ahead.map((d, axis) => eye[axis]! + d * (hit.distance - kBeforeSurfaceM));
+  return roomAt(rooms, [x!, y!, z!]);
 }
 
 export function boxOf({ floor, elevationM, heightM }: Room): Box {

@@ -11,7 +11,7 @@ import { layerFactors, sameFactors, type LightState } from "./light_state.js";
 import { LightSum } from "./light_sum.js";
 import type { Eye } from "./link.js";
 import { kProbeDefines, Probe } from "./probe.js";
-import { boxAround, boxOf, middleOf, roomAt, type Box } from "./rooms.js";
+import { boxAround, boxOf, middleOf, roomInView, type Box } from "./rooms.js";
 import { Sky } from "./sky.js";
 import { SpotMeter } from "./spot_meter.js";
 import { Sunlight } from "./sunlight.js";
@@ -124,9 +124,21 @@ export class Stage {
     this.camera.fov = (2 * Math.atan(tall)) / kRadPerDegree;
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld(true);
-    const room = roomAt(this.home.rooms, position);
-    if (room !== this.room) this.enter(room);
+    this.findRoom();
     this.due = this.meterDue = true;
+  }
+
+  // What the eye can walk into, once it is known.
+  useWorld(world: Bvh): void {
+    this.world = world;
+    this.findRoom();
+  }
+
+  private findRoom(): void {
+    const { x, y, z } = this.camera.position;
+    const ahead = this.camera.getWorldDirection(new THREE.Vector3());
+    const room = roomInView(this.home.rooms, this.world, [x, y, z], [ahead.x, ahead.y, ahead.z]);
+    if (room !== this.room) this.enter(room);
   }
 
   private enter(room: number | null): void {

@@ -156,31 +156,49 @@ export class Sunlight {
     const numbers = this.tiles.image.data as unknown as Uint32Array;
     tiles.forEach((tile, i) => {
       numbers[first.row * this.across + tile] = first.place + i + 1;
-      this.fill(first.place + i, (x, y, channel) => {
-        // What lies beyond the tile's edge is its neighbour's.
-        const dx = x < 0 ? -1 : x < inner ? 0 : 1;
-        const dy = y < 0 ? -1 : y < inner ? 0 : 1;
+      this.fill(first.place + i, (dx, dy, channel) => {
         const column = (tile % this.across) + dx;
         const of = column < 0 || column >= this.across ? undefined : places.get(tile + dy * this.across + dx);
-        if (of === undefined) return 0;
-        const plane = of * channels + Math.min(channel, channels - 1);
-        return bytes[(plane * inner + (y - dy * inner)) * inner + (x - dx * inner)]!;
+        if (of === undefined) return null;
+        const at = (of * channels + Math.min(channel, channels - 1)) * inner ** 2;
+        return bytes.subarray(at, at + inner ** 2);
       });
     });
     this.cells.needsUpdate = this.tiles.needsUpdate = true;
   }
 
-  private fill(place: number, at: (x: number, y: number, channel: number) => number): void {
+  // `planeOf(dx, dy, channel)`: cells of the tile, and of its neighbours, of which the border is copied.
+  private fill(place: number, planeOf: (dx: number, dy: number, channel: number) => Uint8Array | null): void {
+    const { edge, channels } = this;
     const data = this.cells!.image.data as Uint8Array;
     const perPage = this.columns * this.pageRows;
-    const left = (place % this.columns) * this.edge;
-    const top = (Math.floor(place / this.columns) % this.pageRows) * this.edge;
-    const width = this.columns * this.edge;
-    const page = Math.floor(place / perPage) * width * this.pageRows * this.edge;
-    for (let y = 0; y < this.edge; ++y)
-      for (let x = 0; x < this.edge; ++x)
-        for (let c = 0; c < this.channels; ++c)
-          data[(page + (top + y) * width + left + x) * this.channels + c] = c < 3 ? at(x - 1, y - 1, c) : 255;
+    const left = (place % this.columns) * edge;
+    const top = (Math.floor(place / this.columns) % this.pageRows) * edge;
+    const width = this.columns * edge;
+    const page = Math.floor(place / perPage);
+    const first = (page * width * this.pageRows * edge + top * width + left) * channels;
+    const inner = edge - 2;
+    // Cells before, inside and behind a tile: where they go to, and where they come from.
+    const parts = [
+      { step: -1, to: 0, from: inner - 1, count: 1 },
+      { step: 0, to: 1, from: 0, count: inner },
+      { step: 1, to: edge - 1, from: 0, count: 1 },
+    ];
+    for (let c = 0; c < channels; ++c)
+      for (const down of parts)
+        for (const across of parts) {
+          const plane = c < 3 ? planeOf(across.step, down.step, c) : null;
+          for (let y = 0; y < down.count; ++y) {
+            const to = first + ((down.to + y) * width + across.to) * channels;
+            const from = (down.from + y) * inner + across.from;
+            if (channels === 1 && plane) {
+              data.set(plane.subarray(from, from + across.count), to);
+              continue;
+            }
+            for (let x = 0; x < across.count; ++x) data[to + x * channels + c] = c < 3 ? (plane?.[from + x] ?? 0) : 255;
+          }
+        }
+    this.cells!.addLayerUpdate(page);
   }
 
   // What layers are multiplied by.

@@ -128,7 +128,7 @@ export const kSurfaceFragment = `
   #define ENVMAP_TYPE_CUBE_UV
   #include <cube_uv_reflection_fragment>
 
-  const float kPi = 3.14159265, kRough = 0.8;
+  const float kPi = 3.14159265, kRough = 0.8, kElsewhere = 1.5;
   float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
   // Directional albedo of GGX: f0 * x + f90 * y (fit of Karis 2014, "Physically based shading on mobile").
@@ -160,7 +160,8 @@ export const kSurfaceFragment = `
   }
 
   // Radiance that the probe has for a reflection. Outside of the probe's room it is scaled by how a place is lit beside
-  // what the probe sees around it. In that room it is only dimmed, the rougher the more: corners are darker than the
+  // what the probe sees around it, and hardly brighter than that light in any direction: the probe's window is not
+  // there. In the room it is only dimmed, the rougher the more: corners are darker than the
   // middle, but what a lamp lights strongly does not reflect more. What is very rough reflects as it is lit, without a
   // look at the probe.
   vec3 reflected(vec3 n, vec3 v, float roughness, vec3 lux) {
@@ -170,9 +171,11 @@ export const kSurfaceFragment = `
       float inside;
       vec3 radiance = textureCubeUV(uProbe, normalize(seenFromProbe(r, inside)), roughness).rgb * ${kUnit.toFixed(1)};
       vec3 around = textureCubeUV(uProbe, n, 1.0).rgb * ${kUnit.toFixed(1)};
-      float share = min(luminance(lux) / max(luminance(around) * kPi, 1e-4), 4.0);
+      float mean = max(luminance(around), 1e-4);
+      float share = luminance(lux) / kPi / mean;
       float corner = mix(1.0, min(share, 1.0), smoothstep(0.1, 0.6, roughness));
-      vec3 seen = radiance * mix(share, corner, inside);
+      float elsewhere = share * min(1.0, kElsewhere * mean / max(luminance(radiance), 1e-4));
+      vec3 seen = radiance * mix(elsewhere, corner, inside);
       return mix(seen, lux / kPi, smoothstep(0.6, kRough, roughness));
     #else
       return lux / kPi;
@@ -250,19 +253,22 @@ export const kSurfaceFragment = `
         vec3 h = normalize(v + l);
         // As wide as the sun's disc at least: what a smooth surface mirrors is half as wide in half vectors.
         float alpha = length(vec2(roughness * roughness, 0.5 * uSunSize[k]));
-        vec3 fresnel = mix(mix(vF0.rgb, base.rgb, gloss.y), vec3(mix(vF0.a, 1.0, gloss.y)), pow(1.0 - dot(h, v), 5.0));
+        float grazing = pow(clamp(1.0 - dot(h, v), 0.0, 1.0), 5.0);
+        vec3 fresnel = mix(mix(vF0.rgb, base.rgb, gloss.y), vec3(mix(vF0.a, 1.0, gloss.y)), grazing);
         glint += arrives * fresnel * lobe(n, v, l, h, alpha);
       }
     #endif
     vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * (lux * towards(n) + turned) / kPi;
-    vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, lux) : vec3(0.0);
+    // Where there is neither glint nor probe, the sun's light is reflected as all other light is.
+    vec3 mirrored = uReflect ? lux : lux + straight;
+    vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, mirrored) : vec3(0.0);
     shine += glint;
     lux += straight;
     #ifdef PANE
-      // What lies behind passes by the alpha of the target's blending.
-      float passes = gloss.z > 0.0 ? gloss.z * luminance(base.rgb) : 1.0 - base.a;
-      vec3 own = diffuse * (gloss.z > 0.0 ? 1.0 - gloss.z : base.a);
-      outColor = vec4(finish(own + shine + emission.rgb, lux), passes * kept);
+      // Alpha of a colour: how much of a place is covered at all. What lies behind passes by that of the target.
+      float passes = mix(1.0, gloss.z * luminance(base.rgb) * kept, base.a);
+      vec3 own = diffuse * (1.0 - gloss.z) + shine + emission.rgb;
+      outColor = vec4(finish(own * base.a, lux), passes);
     #else
       outColor = vec4(finish(diffuse + shine + emission.rgb, lux), 1.0);
     #endif

@@ -4,7 +4,7 @@ import { Bvh } from "../../baked/src/bvh.js";
 import { frameOf, storeyAt } from "../../baked/src/floor_plan.js";
 import { eyeOfCamera, Mover } from "../../baked/src/mover.js";
 import { Pace } from "../../baked/src/pace.js";
-import { insideOutline, middleOf, roomAt } from "../../baked/src/rooms.js";
+import { insideOutline, middleOf, roomAt, roomInView } from "../../baked/src/rooms.js";
 import { floorBelow, freePlace, hasHeadroom, walked, type Body } from "../../baked/src/walk.js";
 import type { Vec3 } from "../../src/vector.js";
 import { near, nearAll } from "./near.js";
@@ -147,6 +147,25 @@ test("rooms are found by place, and have a middle that is inside", () => {
   assert.equal(storeyAt(rooms, 4.4), 2.8);
   assert.equal(storeyAt(rooms, 1.6), 0);
   near(frameOf(rooms, 100, 100).scale, 20);
+});
+
+test("an eye before an open side is in the room that it looks into, not in one behind a wall", () => {
+  const floor = [
+    [0, 0],
+    [4, 0],
+    [4, 4],
+    [0, 4],
+  ] as const;
+  const rooms = [{ name: "a", floor, elevationM: 0, heightM: 2.5 }];
+  const open = worldOf([level(0, 0, 4, 0, 4), wallX(4, 0, 4)]);
+  const shut = worldOf([level(0, 0, 4, 0, 4), wallX(4, 0, 4), wallX(0, 0, 4)]);
+  const eye: Vec3 = [-2, 1.5, 2];
+  assert.equal(roomInView(rooms, open, eye, [1, 0, 0]), 0);
+  assert.equal(roomInView(rooms, open, eye, [-1, 0, 0]), null);
+  assert.equal(roomInView(rooms, shut, eye, [1, 0, 0]), null);
+  assert.equal(roomInView(rooms, open, [2, 6, 2], [0, -1, 0]), 0);
+  assert.equal(roomInView(rooms, open, [2, 1.5, 2], [-1, 0, 0]), 0);
+  assert.equal(roomInView(rooms, null, eye, [1, 0, 0]), null);
 });
 
 test("slow frames get fewer pixels, unless that does not help", () => {
