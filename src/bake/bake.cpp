@@ -10,7 +10,6 @@
 #include "bake/light_texels.h"
 #include "bake/lit_places.h"
 #include "bake/simplify.h"
-#include "bake/thin_covers.h"
 #include "home/cameras.h"
 #include "look/display.h"
 #include "report/page.h"
@@ -62,17 +61,13 @@ struct LaidOut {
   SunCells sunCells() const { return {scene, atlas, lit, movedM, buriedCells}; }
 };
 
-constexpr float kGapsOfError = 4;  // larger ones do not matter
-
 Result<LaidOut> layOut(const RayScene& home, bool sun, const BakeSettings& settings, Stages& stages) {
   Scene scene = home.scene();
   const std::vector<Vec3> eyes = eyesIn(home);
   AtlasSettings ofAtlas = settings.atlas;
   ofAtlas.coarser = coarserFar(scene, eyes);
-  std::vector<float> moved = stages.run("simplify", [&](const Progress&) {
-    const std::vector<float> gaps = gapsOf(home, kGapsOfError * settings.simplifyM);
-    return simplifyMeshes(scene, {settings.simplifyM, ofAtlas.coarser, gaps});
-  });
+  std::vector<float> moved = stages.run(
+      "simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM, ofAtlas.coarser); });
   const RayScene rays(scene);
   const SeenSides seen = stages.run("seen", [&](const Progress&) {
     return seenFrom(rays, eyes, std::max(settings.seenRays, eyes.size() * settings.raysAnEye));

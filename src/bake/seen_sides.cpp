@@ -156,12 +156,23 @@ class Look {
       if (!(dot(way, normal) < -kGrazing * length(way) * length(normal))) continue;
       along({eyes_[eye], normalize(way)}, [&](const Hit& hit, Vec3 p, bool) {
         const bool same = hit.instance == instance && hit.triangle == triangle;
-        found += same, covered += !same && length(p - target) < kSamePlaceM;
+        found += same;
+        covered += !same && length(p - target) < kSamePlaceM && !(hit.instance == instance && touch(v, hit));
         return !same;
       });
       if (found > 1 && covered == 0) return true;
     }
     return found > covered;
+  }
+
+  bool touch(const TriangleVertices& v, const Hit& hit) const {
+    const TriangleVertices w = worldTriangle(rays_.scene(), hit.instance, hit.triangle);
+    for (const Vec3 a : {v.a, v.b, v.c}) {
+      for (const Vec3 b : {w.a, w.b, w.c}) {
+        if (a == b) return true;
+      }
+    }
+    return false;
   }
 
   static constexpr size_t kOfRay = 2, kRecordedRays = size_t{1} << 21;  // sightings: the last ones of each ray

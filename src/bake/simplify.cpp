@@ -14,8 +14,6 @@ namespace roomlight::bake {
 namespace {
 
 constexpr size_t kFewTriangles = 64;
-constexpr float kLeastErrorM =
-    0.0001f;  // above thin covers: smaller ones save little, and are missed by more than they are
 constexpr float kFurthestM = 20;       // from eyes, that counts
 constexpr float kOfThickness = 0.01f;  // of its thickness a mesh may be off: planks, tiles and rugs lie on other things
 
@@ -120,8 +118,8 @@ std::vector<float> coarserFar(const Scene& scene, std::span<const Vec3> eyes) {
   return out;
 }
 
-std::vector<float> simplifyMeshes(Scene& scene, const SimplifyBounds& bounds) {
-  const std::vector<Placed> placed = placedMeshes(scene, bounds.coarser);
+std::vector<float> simplifyMeshes(Scene& scene, float errorM, std::span<const float> coarser) {
+  const std::vector<Placed> placed = placedMeshes(scene, coarser);
   std::vector<float> moved(scene.meshes.size(), 0);
   parallelFor(scene.meshes.size(), 1, [&](size_t i) {
     Mesh& mesh = scene.meshes[i];
@@ -129,12 +127,7 @@ std::vector<float> simplifyMeshes(Scene& scene, const SimplifyBounds& bounds) {
     const float* positions = &mesh.positions.front().x;
     const float scale = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(Vec3));
     if (!(scale > 0)) return;
-    float most = std::min(bounds.errorM * placed[i].coarser, kOfThickness * placed[i].thicknessM);
-    if (!bounds.gapsM.empty()) {
-      const float share = bounds.gapsM[i] / 3;  // the other surface moves too
-      if (share < kLeastErrorM) return;
-      most = std::min(most, share);
-    }
+    const float most = std::min(errorM * placed[i].coarser, kOfThickness * placed[i].thicknessM);
     std::vector<uint32_t> indices(mesh.indices.size());
     const size_t count =
         meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions, mesh.positions.size(),

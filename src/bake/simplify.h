@@ -11,16 +11,11 @@ namespace roomlight::bake {
 // How much coarser each instance may be for being far from all eyes: its distance in metres, from 1 to 20.
 std::vector<float> coarserFar(const Scene& scene, std::span<const Vec3> eyes);
 
-// Meshes in which no place of the surface is farther than the error from where it was, as far as edges of quadrics
+// Meshes in which no place of the surface is farther than `errorM` from where it was, as far as edges of quadrics
 // tell; borders, seams of normals and texture coordinates stay. Thin meshes are moved less: planks, tiles and rugs lie
 // millimetres above other things, which would come through. A mesh that is placed larger than it is made is simplified
-// less. Returns of each mesh how far places may
+// less. `coarser`: times so much, by instance; none: 1. Returns of each mesh how far places may
 // have moved, m in the world; 0: it has all its triangles.
-struct SimplifyBounds {
-  float errorM = 0.001f;
-  std::span<const float> coarser = {};  // times so much, by instance; none: 1
-  std::span<const float> gapsM = {};    // by mesh: a third of it at most; none: any
-};
-std::vector<float> simplifyMeshes(Scene& scene, const SimplifyBounds& bounds);
+std::vector<float> simplifyMeshes(Scene& scene, float errorM, std::span<const float> coarser = {});
 
 }  // namespace roomlight::bake

@@ -31,7 +31,7 @@ std::pair<float, float> mostOff(float x) {
   const Scene scene = withBall(x);
   const RayScene home(scene);
   Scene simplified = scene;
-  const std::vector<float> moved = simplifyMeshes(simplified, {kErrorM});
+  const std::vector<float> moved = simplifyMeshes(simplified, kErrorM);
   const RayScene rays(simplified);
   const SeenSides seen = seenFrom(rays, eyesIn(rays), 1 << 17);
   LitPlaces lit = litPlacesOf(atlasOf(simplified, chartsOf(simplified, seen, {}), {}).value(), rays, seen, 0.02f);

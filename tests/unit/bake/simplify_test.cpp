@@ -28,7 +28,7 @@ size_t trianglesLeft(float thicknessM) {
   board.material = addMaterial(scene, lambertian(0.5f));
   scene.meshes = {board};
   scene.instances.resize(1), scene.instances[0].mesh = 0;
-  simplifyMeshes(scene, {0.004f});
+  simplifyMeshes(scene, 0.004f);
   return scene.meshes[0].triangleCount();
 }
 
@@ -53,7 +53,7 @@ TEST(Simplify, aPlaneKeepsUprightNormals) {
   ceiling.material = addMaterial(scene, lambertian(0.5f));
   scene.meshes = {ceiling};
   scene.instances.resize(1), scene.instances[0].mesh = 0;
-  simplifyMeshes(scene, {0.002f});
+  simplifyMeshes(scene, 0.002f);
   const Mesh& mesh = scene.meshes[0];
   EXPECT_LT(mesh.triangleCount(), ceiling.triangleCount() / 4);
   EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
@@ -75,7 +75,7 @@ TEST(Simplify, aBallKeepsItsNormals) {
   Scene scene = ball();
   Mesh& mesh = scene.meshes[0];
   const size_t vertices = mesh.positions.size(), triangles = mesh.triangleCount();
-  simplifyMeshes(scene, {0.01f});
+  simplifyMeshes(scene, 0.01f);
   EXPECT_LT(mesh.triangleCount(), triangles / 4);
   EXPECT_LE(mesh.positions.size(), vertices + vertices / 100);
 }
@@ -90,7 +90,7 @@ TEST(Simplify, whatLosesNothingKeepsItsNormals) {
     mesh.positions.push_back(p), mesh.normals.push_back(crown);
   for (const uint32_t i : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(first + i);
   const size_t triangles = mesh.triangleCount();
-  EXPECT_GT(simplifyMeshes(scene, {0.01f})[0], 0);
+  EXPECT_GT(simplifyMeshes(scene, 0.01f)[0], 0);
   EXPECT_LT(mesh.triangleCount(), triangles);
   size_t leaves = 0;
   for (const uint32_t i : mesh.indices) {
