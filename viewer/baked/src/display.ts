@@ -17,6 +17,12 @@ const kMeterHeight = 27;
 const kMostExposed: Readonly<Record<ToneName, number>> = { neutral: 8, agx: 16, filmic: 8, clip: 4 };
 const kMostRadiance = kMostStored * kUnit;
 const kRampColours = 256;
+const kR2 = [0.75487767, 0.56984029] as const;
+const kWeighted = {
+  blending: THREE.CustomBlending,
+  blendSrc: THREE.SrcAlphaFactor,
+  blendDst: THREE.OneMinusSrcAlphaFactor,
+};
 
 const kVertex = `
   in vec3 position;
@@ -25,30 +31,45 @@ const kVertex = `
     vUv = position.xy * 0.5 + 0.5;
     gl_Position = vec4(position.xy, 0.0, 1.0);
   }`;
-const kFragment = `
+const kHead = `
   precision highp float;
   precision highp int;
   precision highp sampler2D;
-  uniform sampler2D uImage, uRamp;
-  uniform vec3 uExposure;
-  uniform int uTone;
-  uniform vec2 uGrade;
-  uniform bool uLux;
-  uniform vec2 uScale; // lux: logarithms of the ends
+  uniform sampler2D uImage;
   in vec2 vUv;
   out vec4 outColor;
   ${kToneGlsl}
   ${kDitherGlsl}
+  void encoded(vec3 shown) {
+    outColor = vec4(clamp(srgbEncode(shown) + (dither(gl_FragCoord.xy) - 0.5) / 255.0, 0.0, 1.0), 1.0);
+  }`;
+const kDeveloped = `
+  uniform vec3 uExposure;
+  uniform int uTone;
+  uniform vec2 uGrade;
+  vec3 developed() {
+    vec3 exposed = texture(uImage, vUv).rgb * ${kUnit.toFixed(1)} * uExposure;
+    return clamp(toneCurve(exposed, uTone, uGrade), 0.0, 1.0);
+  }`;
+const kFragment = `${kHead}${kDeveloped}
+  uniform sampler2D uRamp;
+  uniform bool uLux;
+  uniform vec2 uScale; // lux: logarithms of the ends
   void main() {
-    vec3 image = texture(uImage, vUv).rgb * ${kUnit.toFixed(1)};
-    if (uLux) {
-      float t = clamp((log(max(image.r, 1e-6)) - uScale.x) / (uScale.y - uScale.x), 0.0, 1.0);
-      outColor = vec4(image.r > 0.0 ? texture(uRamp, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb : vec3(0.09), 1.0);
+    if (!uLux) {
+      encoded(developed());
       return;
     }
-    vec3 shown = srgbEncode(toneCurve(image * uExposure, uTone, uGrade));
-    outColor = vec4(clamp(shown + (dither(gl_FragCoord.xy) - 0.5) / 255.0, 0.0, 1.0), 1.0);
+    float lux = texture(uImage, vUv).r * ${kUnit.toFixed(1)};
+    float t = clamp((log(max(lux, 1e-6)) - uScale.x) / (uScale.y - uScale.x), 0.0, 1.0);
+    outColor = vec4(lux > 0.0 ? texture(uRamp, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb : vec3(0.09), 1.0);
   }`;
+// Pictures are averaged as the screen shows them: an edge of a window is as bright as it covers a pixel.
+const kAddFragment = `${kHead}${kDeveloped}
+  uniform float uWeight;
+  void main() { outColor = vec4(developed(), uWeight); }`;
+const kAverageFragment = `${kHead}
+  void main() { encoded(texture(uImage, vUv).rgb); }`;
 const kMeterFragment = `
   precision highp float;
   precision highp int;
@@ -71,7 +92,7 @@ const kMeterFragment = `
     outColor = readout(count > 0.0 ? exp2(sum / count) : 0.0);
   }`;
 
-function quad(fragmentShader: string, uniforms: Uniforms): THREE.Mesh {
+function quad(fragmentShader: string, uniforms: Uniforms, blending = {}): THREE.Mesh {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
   const material = new THREE.RawShaderMaterial({
@@ -81,6 +102,7 @@ function quad(fragmentShader: string, uniforms: Uniforms): THREE.Mesh {
     uniforms,
     depthTest: false,
     depthWrite: false,
+    ...blending,
   });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
@@ -97,10 +119,15 @@ export class Display {
     uEncode: { value: false },
     uMostRadiance: { value: new THREE.Vector3().setScalar(kMostRadiance) },
     uDither: { value: 0 },
+    uPicture: { value: -1 },
   };
   private readonly image: THREE.WebGLRenderTarget;
   private readonly meterTarget = new THREE.WebGLRenderTarget(kMeterWidth, kMeterHeight, { depthBuffer: false });
+  private readonly average = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType, depthBuffer: false });
   private readonly show: THREE.Mesh;
+  private readonly add: THREE.Mesh;
+  private readonly showAverage: THREE.Mesh;
+  private readonly weight = { value: 1 };
   private readonly meterQuad: THREE.Mesh;
   private readonly camera = new THREE.Camera();
   private readonly scale = { value: new THREE.Vector2() };
@@ -131,6 +158,8 @@ export class Display {
     rampTexture.needsUpdate = true;
     const image = { value: this.image.texture };
     this.show = quad(kFragment, { ...this.uniforms, uImage: image, uRamp: { value: rampTexture }, uScale: this.scale });
+    this.add = quad(kAddFragment, { ...this.uniforms, uImage: image, uWeight: this.weight }, kWeighted);
+    this.showAverage = quad(kAverageFragment, { uImage: { value: this.average.texture } });
     this.meterQuad = quad(kMeterFragment, { uImage: image, uLux: this.uniforms.uLux! });
     this.uniforms.uTone!.value = kToneNumbers[home.display.tone];
     (this.uniforms.uGrade!.value as THREE.Vector2).set(home.display.contrast, home.display.saturation);
@@ -155,9 +184,35 @@ export class Display {
 
   resize(widthPx: number, heightPx: number): void {
     this.image.setSize(widthPx, heightPx);
+    this.average.setSize(widthPx, heightPx);
   }
 
   draw(scene: THREE.Scene, camera: THREE.Camera): void {
+    this.expose(scene, camera);
+    drawInto(this.renderer, null, this.show, this.camera);
+  }
+
+  // Adds the picture `index` of a row to their average; what is between pixels and within lobes differs from one to the
+  // next (R2 sequence, Roberts 2018).
+  refine(scene: THREE.Scene, camera: THREE.PerspectiveCamera, index: number): void {
+    const { width, height } = this.image;
+    const between = (share: number) => ((0.5 + share * index) % 1) - 0.5; // of a pixel
+    const { elements } = camera.projectionMatrix;
+    elements[8]! += (2 * between(kR2[0])) / width;
+    elements[9]! += (2 * between(kR2[1])) / height;
+    this.uniforms.uPicture!.value = index;
+    this.expose(scene, camera);
+    this.uniforms.uPicture!.value = -1;
+    camera.updateProjectionMatrix();
+    this.weight.value = 1 / (index + 1);
+    drawInto(this.renderer, this.average, this.add, this.camera, index === 0);
+  }
+
+  presentAverage(): void {
+    drawInto(this.renderer, null, this.showAverage, this.camera);
+  }
+
+  private expose(scene: THREE.Scene, camera: THREE.Camera): void {
     const { uMostRadiance, uDither } = this.uniforms;
     const [r, g, b] = (this.uniforms.uExposure!.value as THREE.Vector3).toArray();
     const most = (exposure: number) => Math.min(kMostExposed[this.home.display.tone] / exposure, kMostRadiance);
@@ -166,7 +221,6 @@ export class Display {
     drawInto(this.renderer, this.image, scene, camera);
     (uMostRadiance!.value as THREE.Vector3).setScalar(kMostRadiance);
     uDither!.value = 0;
-    drawInto(this.renderer, null, this.show, this.camera);
   }
 
   // Luminances in cd/m², in false colours lux, of the last picture: rows of `width`, zero where there is nothing.

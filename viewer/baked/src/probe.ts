@@ -2,7 +2,6 @@
 // roughnesses. One face a frame, then the filter; what was there stays until the new one is done.
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
-import type { Box } from "./rooms.js";
 import type { Uniforms } from "./surfaces.js";
 
 const kFaces = 6;
@@ -16,28 +15,23 @@ export const kProbeDefines = (sizePx: number): Record<string, string> => {
   };
 };
 
-interface Place {
-  readonly at: Vec3;
-  readonly box: Box;
-}
-
 export class Probe {
   readonly uniforms: Uniforms = {
     uProbe: { value: null },
     uReflect: { value: false },
     uProbeAt: { value: new THREE.Vector3() },
-    uRoomLow: { value: new THREE.Vector3() },
-    uRoomHigh: { value: new THREE.Vector3() },
+    uAround: { value: null },
   };
-  private readonly cube: THREE.WebGLCubeRenderTarget;
+  private cube: THREE.WebGLCubeRenderTarget; // what is drawn
+  private seen: THREE.WebGLCubeRenderTarget; // what is shown
   private readonly eyes: THREE.CubeCamera;
   private readonly filter: THREE.PMREMGenerator;
   private shown: THREE.WebGLRenderTarget | null = null;
   private spare: THREE.WebGLRenderTarget | null = null;
   private step = -1; // faces that are drawn; -1: nothing to do
   private stale = false;
-  private place: Place | null = null;
-  private next: Place | null = null;
+  private place: Vec3 | null = null;
+  private next: Vec3 | null = null;
 
   constructor(
     private readonly renderer: THREE.WebGLRenderer,
@@ -45,7 +39,14 @@ export class Probe {
     private readonly display: Uniforms,
     sizePx: number,
   ) {
-    this.cube = new THREE.WebGLCubeRenderTarget(sizePx, { type: THREE.HalfFloatType });
+    const cube = () =>
+      new THREE.WebGLCubeRenderTarget(sizePx, {
+        type: THREE.HalfFloatType,
+        minFilter: THREE.NearestFilter, // distances between that of a thing and that of what is behind it are of nothing
+        magFilter: THREE.NearestFilter,
+      });
+    this.cube = cube();
+    this.seen = cube();
     this.eyes = new THREE.CubeCamera(0.05, 500, this.cube);
     this.eyes.coordinateSystem = THREE.WebGLCoordinateSystem;
     this.eyes.updateCoordinateSystem();
@@ -57,10 +58,15 @@ export class Probe {
   }
 
   // Where it stands from now on.
-  move(at: Vec3, box: Box): void {
-    this.next = { at, box };
+  move(at: Vec3): void {
+    this.next = at;
     this.stale = true;
     this.step = -1;
+  }
+
+  // From where it stands, or will; infinite before it stands anywhere.
+  distanceTo(place: THREE.Vector3): number {
+    return this.next ? place.distanceTo(new THREE.Vector3(...this.next)) : Infinity;
   }
 
   // The light has changed.
@@ -75,7 +81,7 @@ export class Probe {
       this.stale = false;
       this.step = 0;
       this.place = this.next;
-      this.eyes.position.set(...this.place.at);
+      this.eyes.position.set(...this.place);
       this.eyes.updateMatrixWorld(true);
     }
     const xr = this.renderer.xr.enabled;
@@ -104,11 +110,10 @@ export class Probe {
     this.spare = this.shown;
     this.shown = done;
     this.step = -1;
-    const { at, box } = this.place!;
+    [this.cube, this.seen] = [this.seen, this.cube];
+    this.uniforms.uAround!.value = this.seen.texture;
     this.uniforms.uProbe!.value = done.texture;
     this.uniforms.uReflect!.value = true;
-    (this.uniforms.uProbeAt!.value as THREE.Vector3).set(...at);
-    (this.uniforms.uRoomLow!.value as THREE.Vector3).set(...box.low);
-    (this.uniforms.uRoomHigh!.value as THREE.Vector3).set(...box.high);
+    (this.uniforms.uProbeAt!.value as THREE.Vector3).set(...this.place!);
   }
 }

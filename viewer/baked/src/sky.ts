@@ -43,7 +43,7 @@ const kBehindFragment = (finish: string) => `
   void main() {
     vec3 d = normalize(vDirection);
     vec2 uv = vec2(0.5 + atan(d.x, -d.z) / 6.28318531, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265);
-    outColor = vec4(finish(textureLod(uSky, uv, 0.0).rgb * ${kUnit.toFixed(1)}, vec3(0.0)), 1.0);
+    outColor = vec4(finish(textureLod(uSky, uv, 0.0).rgb * ${kUnit.toFixed(1)}, vec3(0.0)), 10000.0); // far, to a probe
   }`;
 
 export class Sky {

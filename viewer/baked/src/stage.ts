@@ -11,7 +11,7 @@ import { layerFactors, sameFactors, type LightState } from "./light_state.js";
 import { LightSum } from "./light_sum.js";
 import type { Eye } from "./link.js";
 import { kProbeDefines, Probe } from "./probe.js";
-import { boxAround, boxOf, middleOf, roomInView, type Box } from "./rooms.js";
+import { middleOf, roomInView } from "./rooms.js";
 import { Sky } from "./sky.js";
 import { SpotMeter } from "./spot_meter.js";
 import { Sunlight } from "./sunlight.js";
@@ -24,7 +24,10 @@ const kNearM = 0.05;
 const kFarM = 1000;
 const kPanoramaWidth = 512;
 const kProbeHeightM = 1.5;
+const kStrayM = 3;
 const kMostBiasEv = 2;
+const kPictures = 16; // that are averaged where nothing moves
+const kRestMs = 150; // after the last change, so that dials answer at once
 
 export class Stage {
   readonly scene = new THREE.Scene();
@@ -43,12 +46,13 @@ export class Stage {
   frames = 0;
   scale: Scale | null = null; // of false colours
   private readonly home: Home;
-  private readonly all: Box;
   private room: number | null | undefined = undefined;
   private factors: Vec3[] | null = null;
   private wantedEv100: number | null = null;
   private biasEv: number | null = null; // of the home's exposure over the automatic one at its first camera
   private due = true;
+  private pictures = 0; // of the average
+  private drawnMs = -Infinity;
   private scaleDue = false;
   private metering = false;
   private meteredMs = -Infinity;
@@ -70,7 +74,6 @@ export class Stage {
     this.sunlight = new Sunlight(this.home);
     this.display = new Display(renderer, this.home, 4);
     this.probe = new Probe(renderer, this.scene, this.display.uniforms, kProbePx);
-    this.all = boxAround(geometry.positions);
     const uniforms: Uniforms = {
       ...this.display.uniforms,
       ...this.probe.uniforms,
@@ -138,20 +141,21 @@ export class Stage {
     const { x, y, z } = this.camera.position;
     const ahead = this.camera.getWorldDirection(new THREE.Vector3());
     const room = roomInView(this.home.rooms, this.world, [x, y, z], [ahead.x, ahead.y, ahead.z]);
-    if (room !== this.room) this.enter(room);
+    // Outside of rooms what is reflected is seen from where the eye is.
+    const strayed = room === null && this.probe.distanceTo(this.camera.position) > kStrayM;
+    if (room !== this.room || strayed) this.enter(room);
   }
 
   private enter(room: number | null): void {
     this.room = room;
     this.scaleDue = true;
     const found = room === null ? null : this.home.rooms[room]!;
-    const box = found ? boxOf(found) : this.all;
     const { x, y, z } = this.camera.position;
     const middle = found ? middleOf(found) : [x, z];
     const at: Vec3 = found ? [middle[0]!, found.elevationM + kProbeHeightM, middle[1]!] : [x, y, z];
     let cramped = false;
     this.world?.forEachNear(at, 0.15, () => (cramped = true));
-    this.probe.move(cramped ? [x, y, z] : at, box);
+    this.probe.move(cramped ? [x, y, z] : at);
   }
 
   setFalseColours(on: boolean): void {
@@ -188,22 +192,44 @@ export class Stage {
     this.reflect();
     this.adapt(seconds);
     const drawn = this.due;
-    if (drawn) this.draw();
+    if (drawn) {
+      this.draw();
+      this.drawnMs = nowMs;
+    } else if (this.refining && nowMs - this.drawnMs > kRestMs) this.refine();
     if (this.meterDue && !this.metering && nowMs - this.meteredMs > kMeterMs) void this.measure(nowMs);
     return drawn;
   }
 
   private draw(): void {
     this.due = false;
+    this.pictures = 0;
     this.renderer.info.reset();
     this.surfaces.orderPanes(this.camera.position);
     this.display.draw(this.scene, this.camera);
     ++this.frames;
   }
 
+  // Where nothing else changes, pictures are averaged.
+  private get refining(): boolean {
+    return this.complete && this.scale === null && !this.probe.busy && !this.adapting && this.pictures < kPictures;
+  }
+
+  private refine(): void {
+    this.renderer.info.reset();
+    this.display.refine(this.scene, this.camera, this.pictures);
+    if (++this.pictures === kPictures) this.display.presentAverage();
+  }
+
   // True while a picture, reflections or the exposure still change.
   get restless(): boolean {
-    return this.due || this.meterDue || this.metering || (this.probe.busy && this.scale === null) || this.adapting;
+    return (
+      this.due ||
+      this.refining ||
+      this.meterDue ||
+      this.metering ||
+      (this.probe.busy && this.scale === null) ||
+      this.adapting
+    );
   }
 
   private get adapting(): boolean {
@@ -261,7 +287,8 @@ export class Stage {
   }
 
   screenshot(): Promise<Blob | null> {
-    this.display.draw(this.scene, this.camera);
+    if (this.pictures === kPictures) this.display.presentAverage();
+    else this.display.draw(this.scene, this.camera);
     return new Promise(resolve => this.renderer.domElement.toBlob(resolve, "image/png"));
   }
 }

@@ -1,5 +1,6 @@
 // How surfaces look: glTF's metallic-roughness under the irradiance of the atlas and the reflections of a probe. The
 // diffuse base keeps what the specular lobe leaves, as in src/trace/bsdf.h.
+import { kReflectionGlsl } from "./reflection.js";
 import { kSunGlsl } from "./sunlight.js";
 import { kDitherGlsl, kToneGlsl } from "./tone.js";
 import { kMostStored, kUnit } from "./units.js";
@@ -88,10 +89,9 @@ export const kSurfaceFragment = `
   precision highp sampler2D;
   #define texture2D texture
   #define texture2DGradEXT textureGrad
-  uniform sampler2D uLight, uProbe;
+  uniform sampler2D uLight;
   uniform vec3 cameraPosition;
   uniform bool uReflect; // false where the probe itself is made
-  uniform vec3 uProbeAt, uRoomLow, uRoomHigh;
   uniform float uNormalScale;
   #ifdef HAS_BASE
     uniform sampler2D uBase;
@@ -128,7 +128,7 @@ export const kSurfaceFragment = `
   #define ENVMAP_TYPE_CUBE_UV
   #include <cube_uv_reflection_fragment>
 
-  const float kPi = 3.14159265, kRough = 0.8, kElsewhere = 1.5;
+  const float kPi = 3.14159265;
   float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
   // Directional albedo of GGX: f0 * x + f90 * y (fit of Karis 2014, "Physically based shading on mobile").
@@ -147,40 +147,11 @@ export const kSurfaceFragment = `
     return a2 / (kPi * k * k) * 0.5 / masked * nl;
   }
 
-  // Where a ray from the surface leaves the room, as seen from the probe (parallax correction, Lagarde 2012).
-  // inside: 1 in the room, falling to 0 within half a metre of it.
-  vec3 seenFromProbe(vec3 direction, out float inside) {
-    vec3 margin = vec3(0.02);
-    float beyond = length(max(max(uRoomLow - margin - vPosition, vPosition - uRoomHigh - margin), 0.0));
-    inside = 1.0 - smoothstep(0.0, 0.5, beyond);
-    if (beyond > 0.0) return direction;
-    vec3 d = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
-    vec3 far = max((uRoomLow - margin - vPosition) / d, (uRoomHigh + margin - vPosition) / d);
-    return vPosition + direction * min(far.x, min(far.y, far.z)) - uProbeAt;
-  }
-
-  // Radiance that the probe has for a reflection. Outside of the probe's room it is scaled by how a place is lit beside
-  // what the probe sees around it, and hardly brighter than that light in any direction: the probe's window is not
-  // there. In the room it is only dimmed, the rougher the more: corners are darker than the
-  // middle, but what a lamp lights strongly does not reflect more. What is very rough reflects as it is lit, without a
-  // look at the probe.
-  vec3 reflected(vec3 n, vec3 v, float roughness, vec3 lux) {
-    #ifdef PROBE
-      if (!uReflect || roughness >= kRough) return lux / kPi;
-      vec3 r = normalize(mix(reflect(-v, n), n, roughness * roughness));
-      float inside;
-      vec3 radiance = textureCubeUV(uProbe, normalize(seenFromProbe(r, inside)), roughness).rgb * ${kUnit.toFixed(1)};
-      vec3 around = textureCubeUV(uProbe, n, 1.0).rgb * ${kUnit.toFixed(1)};
-      float mean = max(luminance(around), 1e-4);
-      float share = luminance(lux) / kPi / mean;
-      float corner = mix(1.0, min(share, 1.0), smoothstep(0.1, 0.6, roughness));
-      float elsewhere = share * min(1.0, kElsewhere * mean / max(luminance(radiance), 1e-4));
-      vec3 seen = radiance * mix(elsewhere, corner, inside);
-      return mix(seen, lux / kPi, smoothstep(0.6, kRough, roughness));
-    #else
-      return lux / kPi;
-    #endif
-  }
+  #ifdef PROBE
+    ${kReflectionGlsl(kUnit.toFixed(1))}
+  #else
+    vec3 reflected(vec3 n, vec3 v, float roughness, float weight, vec3 lux) { return lux / kPi; }
+  #endif
 
   // How much more light arrives from where a normal map turns a place to. Layers do not tell; the probe does for the
   // room, with the lamps as they are dimmed.
@@ -261,7 +232,7 @@ export const kSurfaceFragment = `
     vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * (lux * towards(n) + turned) / kPi;
     // Where there is neither glint nor probe, the sun's light is reflected as all other light is.
     vec3 mirrored = uReflect ? lux : lux + straight;
-    vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, mirrored) : vec3(0.0);
+    vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, 1.0 - kept, mirrored) : vec3(0.0);
     shine += glint;
     lux += straight;
     #ifdef PANE
@@ -270,6 +241,7 @@ export const kSurfaceFragment = `
       vec3 own = diffuse * (1.0 - gloss.z) + shine + emission.rgb;
       outColor = vec4(finish(own * base.a, lux), passes);
     #else
-      outColor = vec4(finish(diffuse + shine + emission.rgb, lux), 1.0);
+      // A probe asks how far things are, too.
+      outColor = vec4(finish(diffuse + shine + emission.rgb, lux), uReflect ? 1.0 : distance(vPosition, cameraPosition));
     #endif
   }`;

@@ -135,6 +135,8 @@ export class Surfaces {
             blending: THREE.CustomBlending,
             blendSrc: THREE.OneFactor,
             blendDst: THREE.SrcAlphaFactor,
+            blendSrcAlpha: THREE.ZeroFactor,
+            blendDstAlpha: THREE.OneFactor,
           }
         : {}),
     });

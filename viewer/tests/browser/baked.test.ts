@@ -125,6 +125,17 @@ test("a mirror of a floor shows the walls", { skip }, async () => {
   await visit.end();
 });
 
+test("a mirror does not show what is before the wall that it faces", { skip }, async () => {
+  const file = bakedHome({ glossy: true, shelf: true });
+  const visit = await opened(`${writePage("shelf", file)}#eye=2,1.6,4,0,-25,60&ev=${kEv100}`);
+  const seen = await visit.color(320, 270);
+  // The middle of the room does not see the foot of the wall: the mean of what arrives stands in for it.
+  const mean = shown(kLampLux[0]!.map(c => (0.9 / kAlbedo) * c) as unknown as Vec3);
+  seen.forEach((c, i) => assert.ok(Math.abs(c - mean[i]!) < 0.03, `${seen} is not ${mean}`));
+  await visit.shot("baked-shelf");
+  await visit.end();
+});
+
 test("a normal map turned to the bright wall has more light", { skip }, async () => {
   const floor = async (towards: number) => {
     const file = bakedHome({ brightWall: true, floorNormal: [0, towards, 0.8] });

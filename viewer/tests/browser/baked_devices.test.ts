@@ -115,19 +115,23 @@ test("a gamepad walks, turns and runs", { skip }, async () => {
   });
   const { page } = visit;
   await visit.settled();
-  const hold = async (axes: readonly number[], ms: number) => {
+  const frames = () => page.locator("#view").evaluate(view => Number((view as HTMLElement).dataset.frames));
+  // For so many frames at least: a busy processor draws few.
+  const hold = async (axes: readonly number[], ms: number, least: number) => {
+    const before = await frames();
     await page.evaluate(a => void ((window as unknown as { pad: { axes: readonly number[] } }).pad.axes = a), axes);
     await page.waitForTimeout(ms);
+    while ((await frames()) < before + least) await page.waitForTimeout(50);
     await page.evaluate(() => void ((window as unknown as { pad: { axes: number[] } }).pad.axes = [0, 0, 0, 0]));
     await visit.settled();
     await page.waitForTimeout(600);
   };
-  await hold([0, 0.1, 0, 0], 1000); // within the dead zone
+  await hold([0, 0.1, 0, 0], 1000, 0); // within the dead zone
   assert.deepEqual(eyeOf(page).slice(0, 3), [2, 1.6, 4]);
-  await hold([0, -1, 0, 0], 1200);
+  await hold([0, -1, 0, 0], 1200, 6);
   const walked = eyeOf(page);
   assert.ok(walked[2]! < 3.7 && Math.abs(walked[0]! - 2) < 0.05, `ahead: ${walked}`);
-  await hold([0, 0, 1, 0], 800);
+  await hold([0, 0, 1, 0], 800, 6);
   const turned = eyeOf(page);
   assert.ok(turned[3]! < -15, `to the right: ${turned}`);
   await visit.end();

@@ -33,6 +33,7 @@ interface Options {
   readonly vertexLit?: boolean;
   readonly lamps?: boolean;
   readonly glossy?: boolean; // a mirror of metal for a floor
+  readonly shelf?: boolean; // over the floor, with five times the light: hides the foot of the wall from the middle
   readonly brightWall?: boolean; // the one at z = 0 has five times the light
   readonly display?: { readonly ev100: number; readonly tone: string; readonly whiteGains: Vec3 };
   readonly sunPatch?: boolean; // suns also shine straight onto half of the floor
@@ -40,7 +41,7 @@ interface Options {
 }
 
 // Six faces seen from inside, each with one tile of the atlas.
-function box() {
+function box(shelf: boolean) {
   const { width: w, height: h, depth: d } = kRoom;
   const faces: [Vec3, Vec3, Vec3, Vec3][] = [
     [
@@ -80,6 +81,13 @@ function box() {
       [-1, 0, 0],
     ],
   ];
+  if (shelf)
+    faces.push([
+      [1, 0.75, 1.8],
+      [2, 0, 0],
+      [0, 0, -1],
+      [0, 1, 0],
+    ]);
   const positions: number[] = [];
   const normals: number[] = [];
   const lightUvs: number[] = [];
@@ -181,21 +189,23 @@ export function bakedHome(options: Options = {}): Uint8Array {
     vertexLit = false,
     lamps = true,
     glossy = false,
+    shelf = false,
     brightWall = false,
     sunPatch = false,
     floorNormal,
   } = options;
   const binary = new Binary();
-  const { positions, normals, lightUvs, uvs, index } = box();
+  const { positions, normals, lightUvs, uvs, index } = box(shelf);
   const count = positions.length / 3;
   const lit = new Uint8Array(4 * count);
   for (let i = 0; i < count; ++i) lit[4 * i] = vertexLit ? 1 : 0;
+  const tiles = shelf ? [0, 1, 2, 3, 4, 5, 6] : [0, 1, 2, 3, 4, 5];
+  const brightTile = brightWall ? 2 : shelf ? 6 : null;
+  const bright = brightTile === null ? undefined : ([brightTile * kTile ** 2, (brightTile + 1) * kTile ** 2] as const);
   const light = (lux: Vec3) => ({
-    bufferView: binary.add(
-      texels(lux, [kTile, kTile, 6], kScale, brightWall ? [2 * kTile ** 2, 3 * kTile ** 2] : undefined),
-    ),
+    bufferView: binary.add(texels(lux, [kTile, kTile, tiles.length], kScale, bright)),
     scale: kScale,
-    tiles: [0, 1, 2, 3, 4, 5],
+    tiles,
   });
   const sun = {
     sun: {
