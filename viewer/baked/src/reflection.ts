@@ -8,7 +8,7 @@ export const kReflectionGlsl = (unit: string): string => `
   uniform float uPicture; // which of those that are averaged; below zero: it stands alone
   const float kSmooth = 0.12, kFaint = 0.08, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0;
   const float kWideSteps = 14.0;
-  const int kRays = 4, kMostRays = 8, kMostSteps = 24, kHalvings = 5;
+  const int kRays = 6, kMostRays = 12, kMostSteps = 24, kHalvings = 5;
 
   // A ray as the probe sees it: it comes nearest to the probe at foot, and sweeps angles from there.
   struct Ray {
@@ -94,7 +94,10 @@ export const kReflectionGlsl = (unit: string): string => `
   // Radiance in cd/m2 along a mirrored ray; mean where the probe does not see what is there.
   vec3 seenAlong(vec3 direction, vec3 side, float roughness, vec3 mean) {
     float rise = dot(direction, side);
-    if (rise <= 0.0) return mean;
+    if (rise < 0.0) {
+      direction -= 2.0 * rise * side;
+      rise = -rise;
+    }
     Sight sight = follow(vPosition - uProbeAt, direction, rise);
     if (!sight.found) return mean;
     vec3 sharp = textureLod(uAround, sight.at, 0.0).rgb * ${unit};
@@ -103,7 +106,7 @@ export const kReflectionGlsl = (unit: string): string => `
     // not what the ray meets.
     float wide = min(roughness * sqrt(sight.distanceM / length(sight.at)), 1.0);
     vec3 blurred = textureCubeUV(uProbe, normalize(sight.at), wide).rgb * ${unit};
-    return blurred * min(1.0, (3.0 * luminance(sharp) + luminance(mean)) / max(luminance(blurred), 1e-4));
+    return blurred * min(1.0, (3.0 * luminance(sharp) + 0.2 * luminance(mean)) / max(luminance(blurred), 1e-4));
   }
 
   // Two numbers of a pixel, from 0 to 1, that have nothing to do with those of its neighbours (PCG, Jarzynski and
@@ -142,7 +145,7 @@ export const kReflectionGlsl = (unit: string): string => `
     } else {
       vec2 start = scattered(uvec2(gl_FragCoord.xy));
       seen = vec3(0.0);
-      int rays = weight < kFaint ? 1 : weight < kStrong ? kRays : kMostRays;
+      int rays = weight < kFaint ? 2 : weight < kStrong ? kRays : kMostRays;
       for (int k = 0; k < rays; ++k) {
         vec2 u = fract(start + (uPicture * float(rays) + float(k)) * vec2(0.75487767, 0.56984029));
         seen += seenAlong(sampleLobe(n, v, 0.5 * alpha, u), side, 0.93 * roughness, mean) / float(rays);

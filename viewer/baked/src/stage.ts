@@ -26,7 +26,7 @@ const kPanoramaWidth = 512;
 const kProbeHeightM = 1.5;
 const kStrayM = 3;
 const kMostBiasEv = 2;
-const kPictures = 16; // that are averaged where nothing moves
+const kPictures = 8; // that are averaged where nothing moves
 const kRestMs = 150; // after the last change, so that dials answer at once
 
 export class Stage {
@@ -53,6 +53,7 @@ export class Stage {
   private due = true;
   private pictures = 0; // of the average
   private drawnMs = -Infinity;
+  private fence: WebGLSync | null = null; // until the chip has drawn the last of them
   private scaleDue = false;
   private metering = false;
   private meteredMs = -Infinity;
@@ -195,7 +196,7 @@ export class Stage {
     if (drawn) {
       this.draw();
       this.drawnMs = nowMs;
-    } else if (this.refining && nowMs - this.drawnMs > kRestMs) this.refine();
+    } else if (this.refining && nowMs - this.drawnMs > kRestMs && this.chipIsReady()) this.refine();
     if (this.meterDue && !this.metering && nowMs - this.meteredMs > kMeterMs) void this.measure(nowMs);
     return drawn;
   }
@@ -211,13 +212,28 @@ export class Stage {
 
   // Where nothing else changes, pictures are averaged.
   private get refining(): boolean {
-    return this.complete && this.scale === null && !this.probe.busy && !this.adapting && this.pictures < kPictures;
+    const more = this.pictures < kPictures || this.fence !== null;
+    return more && this.complete && this.scale === null && !this.probe.busy && !this.adapting;
+  }
+
+  // Pictures do not queue up: one that moves would have to wait for all of them.
+  private chipIsReady(): boolean {
+    if (this.fence === null) return true;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    if (gl.clientWaitSync(this.fence, 0, 0) === gl.TIMEOUT_EXPIRED) return false;
+    gl.deleteSync(this.fence);
+    this.fence = null;
+    return true;
   }
 
   private refine(): void {
+    if (this.pictures === kPictures) return;
     this.renderer.info.reset();
     this.display.refine(this.scene, this.camera, this.pictures);
     if (++this.pictures === kPictures) this.display.presentAverage();
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
   }
 
   // True while a picture, reflections or the exposure still change.

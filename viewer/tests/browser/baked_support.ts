@@ -105,7 +105,7 @@ export async function visitHome(
       // What has just been set shows in the frame after next.
       await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
       await page.waitForFunction(() => document.getElementById("view")?.dataset.settled === "true", null, {
-        timeout: 60000,
+        timeout: 180000,
       });
     },
     stopped: async () => {
