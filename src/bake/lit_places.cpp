@@ -14,7 +14,8 @@ namespace roomlight::bake {
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-constexpr int kRaysEach = 16;
+constexpr int kRaysEach = 16, kRaysInDoubt = 64, kFewOpen = 4;
+constexpr float kOpenShare = 0.08f;    // of what a place sees, that can be seen from a room, at least
 constexpr float kCoverM = 0.04f;       // what nobody sees and is so near covers a place, as a picture does the wall,
 constexpr float kCoveredShare = 0.7f;  // if more of its rays than this end there
 constexpr float kSteps = 1.5f;       // of a component of normals that share a place, each way from zero
@@ -129,18 +130,24 @@ class Clusters {
 bool isBuried(const SurfaceElement& e, size_t number, const RayScene& rays, const SeenSides& seen) {
   const Frame frame(e.normal);
   const Vec3 origin = offsetOrigin(e.position, e.normal);
-  int open = 0, covered = 0;
-  for (int k = 0; k < kRaysEach; ++k) {
-    Sampler sampler(number, static_cast<uint32_t>(k), 0);
-    const Ray ray{origin, frame.toWorld(sampleCosineHemisphere(sampler.next2()))};
-    const Hit hit = rays.intersect(ray);
-    if (!hit.valid() || seen.seen(hit.instance, hit.triangle, meetsBack(rays.scene(), hit, ray.direction))) {
-      ++open;
-    } else if (hit.t < kCoverM) {
-      ++covered;
+  int open = 0, covered = 0, traced = 0;
+  const auto trace = [&](int rayCount) {
+    for (; traced < rayCount; ++traced) {
+      Sampler sampler(number, static_cast<uint32_t>(traced), 0);
+      const Ray ray{origin, frame.toWorld(sampleCosineHemisphere(sampler.next2()))};
+      const Hit hit = rays.intersect(ray);
+      if (!hit.valid() || seen.seen(hit.instance, hit.triangle, meetsBack(rays.scene(), hit, ray.direction))) {
+        ++open;
+      } else if (hit.t < kCoverM) {
+        ++covered;
+      }
     }
-  }
-  return open == 0 || static_cast<float>(covered) > kCoveredShare * kRaysEach;
+  };
+  trace(kRaysEach);
+  // A wall that goes on above the ceiling sees the same of others there: they are seen, further down.
+  if (open > 0 && open < kFewOpen) trace(kRaysInDoubt);
+  return static_cast<float>(open) < kOpenShare * static_cast<float>(traced) ||
+         static_cast<float>(covered) > kCoveredShare * static_cast<float>(traced);
 }
 
 LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides& seen, float apartM) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/rooms.h"
 
 namespace roomlight::bake {
@@ -51,6 +53,22 @@ TEST(LitPlaces, whatIsUnderACupboardTakesTheLightBesideIt) {
     }
   }
   EXPECT_GT(under, 100u);
+}
+
+// Walls go on above a ceiling that hangs 8 cm under the roof, where they see each other, but nobody sees them.
+TEST(LitPlaces, wallsAboveACeilingTakeTheLightBelow) {
+  Scene scene = room();
+  addBox(scene, {-0.01f, 2.4f, -0.01f}, {4.01f, 2.42f, 3.01f}, 0);
+  const Laid laid(std::move(scene));
+  size_t above = 0;
+  for (size_t i = 0; i < laid.atlas.elements.size(); ++i) {
+    const SurfaceElement& e = laid.atlas.elements[i];
+    const bool middle = (e.position.x > 0.5f && e.position.x < 3.5f) || (e.position.z > 0.5f && e.position.z < 2.5f);
+    if (!middle || e.position.y < 2.43f || std::abs(e.normal.y) > 0.1f) continue;
+    ++above;
+    EXPECT_LT(laid.lit.places[laid.lit.ofElement[i].place[0]].position.y, 2.42f) << e.position.x << " " << e.position.z;
+  }
+  EXPECT_GT(above, 200u);
 }
 
 TEST(LitPlaces, verticesOfFineThingsShare) {

@@ -42,7 +42,8 @@ export class Probe {
     const cube = () =>
       new THREE.WebGLCubeRenderTarget(sizePx, {
         type: THREE.HalfFloatType,
-        minFilter: THREE.NearestFilter, // distances between that of a thing and that of what is behind it are of nothing
+        // A mean of two distances is where nothing is.
+        minFilter: THREE.NearestFilter,
         magFilter: THREE.NearestFilter,
       });
     this.cube = cube();

@@ -232,8 +232,8 @@ export const kSurfaceFragment = `
     vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * (lux * towards(n) + turned) / kPi;
     // Where there is neither glint nor probe, the sun's light is reflected as all other light is.
     vec3 mirrored = uReflect ? lux : lux + straight;
-    vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, 1.0 - kept, mirrored) : vec3(0.0);
-    shine += glint;
+    vec3 shine = glint;
+    if (kept < 1.0) shine += specular * reflected(n, v, roughness, 1.0 - kept, mirrored);
     lux += straight;
     #ifdef PANE
       // Alpha of a colour: how much of a place is covered at all. What lies behind passes by that of the target.
@@ -242,6 +242,7 @@ export const kSurfaceFragment = `
       outColor = vec4(finish(own * base.a, lux), passes);
     #else
       // A probe asks how far things are, too.
-      outColor = vec4(finish(diffuse + shine + emission.rgb, lux), uReflect ? 1.0 : distance(vPosition, cameraPosition));
+      outColor = vec4(finish(diffuse + shine + emission.rgb, lux), 1.0);
+      if (!uReflect) outColor.a = distance(vPosition, cameraPosition);
     #endif
   }`;
