@@ -6,7 +6,7 @@ export const kReflectionGlsl = (unit: string): string => `
   uniform samplerCube uAround; // alpha: metres from the probe to what it sees
   uniform vec3 uProbeAt;
   uniform float uPicture; // which of those that are averaged; below zero: it stands alone
-  const float kSmooth = 0.12, kFaint = 0.08, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0;
+  const float kSmooth = 0.12, kFaint = 0.08, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0, kNearM = 1.0;
   const float kWideSteps = 14.0;
   const int kRays = 6, kMostRays = 12, kMostSteps = 24, kHalvings = 5;
 
@@ -101,12 +101,14 @@ export const kReflectionGlsl = (unit: string): string => `
     Sight sight = follow(vPosition - uProbeAt, direction, rise);
     if (!sight.found) return mean;
     vec3 sharp = textureLod(uAround, sight.at, 0.0).rgb * ${unit};
-    if (sight.distanceM <= 0.0) return sharp;
+    bool single = uPicture < 0.0 && roughness >= kSmooth;
+    if (sight.distanceM <= 0.0 && !single) return sharp;
     // Blurred by what the lobe is wide there, seen from the probe; but what is far brighter before it or behind it is
-    // not what the ray meets.
-    float wide = min(roughness * sqrt(sight.distanceM / length(sight.at)), 1.0);
+    // not what the ray meets. A single picture has no other rays to tell.
+    float wide = min(roughness * sqrt(max(sight.distanceM, kNearM) / length(sight.at)), 1.0);
     vec3 blurred = textureCubeUV(uProbe, normalize(sight.at), wide).rgb * ${unit};
-    return blurred * min(1.0, (3.0 * luminance(sharp) + 0.2 * luminance(mean)) / max(luminance(blurred), 1e-4));
+    float most = 3.0 * luminance(sharp) + (single ? 1.0 : 0.2) * luminance(mean);
+    return blurred * min(1.0, most / max(luminance(blurred), 1e-4));
   }
 
   // Two numbers of a pixel, from 0 to 1, that have nothing to do with those of its neighbours (PCG, Jarzynski and
