@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "bake/predicted_texels.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int kMantissaBits = 9, kBias = 15, kMostExponent = 31;
 constexpr float kLargest = 65408;  // (2^9 - 1) / 2^9 * 2^16
+constexpr int kSlack = 1;  // of a mantissa: .4 % of the largest channel
 constexpr float kDarkLux = 0.01f;  // a tile that is nowhere brighter is left out
 
 float clipped(float v) { return v > 0 ? std::min(v, kLargest) : 0; }
@@ -66,7 +68,7 @@ LightTexels lightTexels(const Image& light, int tile) {
     out.tiles.push_back(static_cast<uint32_t>(t));
     addTile(light, tile, static_cast<uint32_t>(t), out.scale, texels);
   }
-  out.stream = deflated(predictedPlanes(texels, tile, tile));
+  out.stream = deflated(predictedPlanes(std::move(texels), tile, tile, kSlack));
   return out;
 }
 
@@ -76,7 +78,7 @@ LightTexels lightTexels(const Image& picture) {
   std::vector<uint32_t> texels;
   for (const Vec3 v : picture.pixels) texels.push_back(rgb9e5(v / out.scale));
   out.tiles = {0};
-  out.stream = deflated(predictedPlanes(texels, picture.width, picture.height));
+  out.stream = deflated(predictedPlanes(std::move(texels), picture.width, picture.height, kSlack));
   return out;
 }
 

@@ -33,6 +33,18 @@ int byRatio(int green, int channelBeside, int greenBeside) {
   return greenBeside > 0 ? std::min((green * channelBeside + (greenBeside >> 1)) / greenBeside, kMost) : green;
 }
 
+// A mantissa as far from its prediction as some step of 2 slack + 1, and at most `slack` from what it is.
+int nearby(int mantissa, int predicted, int slack) {
+  const int step = 2 * slack + 1, off = mantissa - predicted;
+  const int near = predicted + (off + (off < 0 ? -slack : slack)) / step * step;
+  return near >= 0 && near <= kMost ? near : mantissa;
+}
+
+uint32_t packed(const Texel& t) {
+  return static_cast<uint32_t>(t.r) | static_cast<uint32_t>(t.g) << 9 | static_cast<uint32_t>(t.b) << 18 |
+         static_cast<uint32_t>(t.exponent) << 27;
+}
+
 // Differences modulo 2^bits, small ones of either sign first.
 uint32_t folded(int difference, int bits) {
   const int half = 1 << (bits - 1);
@@ -42,13 +54,13 @@ uint32_t folded(int difference, int bits) {
 
 }  // namespace
 
-std::string predictedPlanes(std::span<const uint32_t> texels, int width, int height) {
+std::string predictedPlanes(std::vector<uint32_t> texels, int width, int height, int slack) {
   const size_t count = texels.size(), tile = static_cast<size_t>(width) * static_cast<size_t>(height);
   std::string planes(4 * count, '\0');
   for (size_t i = 0; i < count; ++i) {
     const size_t inTile = i % tile;
     const bool hasLeft = inTile % static_cast<size_t>(width) > 0, hasAbove = inTile >= static_cast<size_t>(width);
-    const Texel t = texelOf(texels[i]);
+    Texel t = texelOf(texels[i]);
     const Texel left = hasLeft ? texelOf(texels[i - 1]) : Texel(),
                 above = hasAbove ? texelOf(texels[i - static_cast<size_t>(width)]) : Texel();
     const Texel beside = hasLeft ? left : above;
@@ -56,8 +68,13 @@ std::string predictedPlanes(std::span<const uint32_t> texels, int width, int hei
     int predicted = hasLeft ? green(left) : green(above);
     if (hasLeft && hasAbove)
       predicted = median(green(left), green(above), green(texelOf(texels[i - static_cast<size_t>(width) - 1])));
-    const uint32_t g = folded(t.g - predicted, 9), r = folded(t.r - byRatio(t.g, beside.r, beside.g), 9),
-                   b = folded(t.b - byRatio(t.g, beside.b, beside.g), 9), e = folded(t.exponent - beside.exponent, 5);
+    t.g = nearby(t.g, predicted, slack);
+    const int red = byRatio(t.g, beside.r, beside.g), blue = byRatio(t.g, beside.b, beside.g);
+    t.r = nearby(t.r, red, slack);
+    t.b = nearby(t.b, blue, slack);
+    texels[i] = packed(t);  // those after it are predicted by what comes back
+    const uint32_t g = folded(t.g - predicted, 9), r = folded(t.r - red, 9), b = folded(t.b - blue, 9),
+                   e = folded(t.exponent - beside.exponent, 5);
     planes[i] = static_cast<char>(g), planes[count + i] = static_cast<char>(r);
     planes[2 * count + i] = static_cast<char>(b);
     planes[3 * count + i] = static_cast<char>(g >> 8 | r >> 8 << 1 | b >> 8 << 2 | e << 3);
