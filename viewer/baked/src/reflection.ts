@@ -3,7 +3,7 @@
 // Needs kPi, kUnit's factor and three.js' cube_uv_reflection_fragment above it.
 export const kReflectionGlsl = (unit: string): string => `
   uniform sampler2D uProbe;
-  uniform samplerCube uAround; // alpha: metres from the probe to what it sees
+  uniform highp samplerCube uAround; // alpha: metres from the probe to what it sees
   uniform vec3 uProbeAt;
   uniform float uPicture; // which of those that are averaged; below zero: it stands alone
   const float kSmooth = 0.12, kFaint = 0.08, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0, kNearM = 1.0;
@@ -74,7 +74,7 @@ export const kReflectionGlsl = (unit: string): string => `
       near = far;
       next = 0.125 * wide;
     }
-    if (hidden) return guess;
+    if (hidden || near.angle < last) return guess;
     return Sight(true, kFarthestM * near.towards, kFarthestM);
   }
 
@@ -86,7 +86,7 @@ export const kReflectionGlsl = (unit: string): string => `
     vec3 b = cross(stretched, t);
     float r = sqrt(u.x), phi = 2.0 * kPi * u.y, s = 0.5 + 0.5 * stretched.z;
     vec2 p = r * vec2(cos(phi), sin(phi));
-    p.y = mix(sqrt(1.0 - p.x * p.x), p.y, s);
+    p.y = mix(sqrt(max(0.0, 1.0 - p.x * p.x)), p.y, s);
     vec3 m = p.x * t + p.y * b + sqrt(max(0.0, 1.0 - dot(p, p))) * stretched;
     return normalize(vec3(alpha * m.xy, max(m.z, 1e-3)));
   }

@@ -148,8 +148,8 @@ export class Stage {
   }
 
   private enter(room: number | null): void {
+    if (room !== this.room) this.scaleDue = true;
     this.room = room;
-    this.scaleDue = true;
     const found = room === null ? null : this.home.rooms[room]!;
     const { x, y, z } = this.camera.position;
     const middle = found ? middleOf(found) : [x, z];
@@ -213,7 +213,8 @@ export class Stage {
   // Where nothing else changes, pictures are averaged.
   private get refining(): boolean {
     const more = this.pictures < kPictures || this.fence !== null;
-    return more && this.complete && this.scale === null && !this.probe.busy && !this.adapting;
+    const metered = !this.meterDue && !this.metering; // of the picture that stands alone
+    return more && metered && this.complete && this.scale === null && !this.probe.busy && !this.adapting;
   }
 
   // Pictures do not queue up: one that moves would have to wait for all of them.
@@ -303,7 +304,7 @@ export class Stage {
   }
 
   screenshot(): Promise<Blob | null> {
-    if (this.pictures === kPictures) this.display.presentAverage();
+    if (this.pictures === kPictures && !this.due) this.display.presentAverage();
     else this.display.draw(this.scene, this.camera);
     return new Promise(resolve => this.renderer.domElement.toBlob(resolve, "image/png"));
   }
