@@ -5,6 +5,7 @@ import type { Home, ToneName } from "./document.js";
 import { falseColour, type Scale } from "./false_colour.js";
 import { drawInto } from "./light_sum.js";
 import { pixelFormat } from "./pixel_format.js";
+import { kR2 } from "./reflection.js";
 import { kReadoutGlsl, readoutAt } from "./readout.js";
 import type { Uniforms } from "./surfaces.js";
 import { exposureFromEv100, kDitherGlsl, kToneGlsl, kToneNumbers } from "./tone.js";
@@ -17,7 +18,6 @@ const kMeterHeight = 27;
 const kMostExposed: Readonly<Record<ToneName, number>> = { neutral: 8, agx: 16, filmic: 8, clip: 4 };
 const kMostRadiance = kMostStored * kUnit;
 const kRampColours = 256;
-const kR2 = [0.75487767, 0.56984029] as const;
 const kWeighted = {
   blending: THREE.CustomBlending,
   blendSrc: THREE.SrcAlphaFactor,

@@ -1,5 +1,8 @@
 // Reflections: what a mirrored ray meets of what the room's probe sees.
 
+// Points of a square that spread well however many of them there are (R2 sequence, Roberts 2018).
+export const kR2 = [0.75487767, 0.56984029] as const;
+
 // Needs kPi, kUnit's factor and three.js' cube_uv_reflection_fragment above it.
 export const kReflectionGlsl = (unit: string): string => `
   uniform sampler2D uProbe;
@@ -7,7 +10,7 @@ export const kReflectionGlsl = (unit: string): string => `
   uniform vec3 uProbeAt;
   uniform float uPicture; // which of those that are averaged; below zero: it stands alone
   const float kSmooth = 0.12, kFaint = 0.08, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0, kNearM = 1.0;
-  const float kWideSteps = 14.0;
+  const float kWideSteps = 14.0, kHalfTexel = 0.011;
   const int kRays = 6, kMostRays = 12, kMostSteps = 24, kHalvings = 5;
 
   // A ray as the probe sees it: it comes nearest to the probe at foot, and sweeps angles from there.
@@ -23,11 +26,12 @@ export const kReflectionGlsl = (unit: string): string => `
     float seen; // metres from the probe to what it sees there
   };
   Step stepAt(Ray ray, float angle) {
-    vec3 towards = cos(angle) * ray.foot + sin(angle) * ray.direction;
-    return Step(angle, towards, ray.height / max(cos(angle), 1e-5), textureLod(uAround, towards, 0.0).a);
+    vec3 at = ray.height * ray.foot + ray.height * tan(angle) * ray.direction;
+    float range = max(length(at), 1e-3);
+    return Step(angle, at / range, range, textureLod(uAround, at, 0.0).a);
   }
-  // What a texel of the probe may be off by, where the probe looks along a surface.
-  float slackM(float range) { return 0.03 + 0.03 * range; }
+  // What the distance of a surface may be off by in a texel of the probe: the more, the flatter the probe looks at it.
+  float slackM(Step s, vec3 side) { return 0.03 + kHalfTexel * s.range / max(abs(dot(s.towards, side)), 0.05); }
   bool hides(Step s, float slack) { return s.seen < s.range - slack; }
 
   struct Sight {
@@ -37,8 +41,8 @@ export const kReflectionGlsl = (unit: string): string => `
   };
   // Follows a ray from a surface until it meets what the probe sees. Nothing is found where it ends at what the probe
   // does not see. A ray that goes behind something and comes out again was not held up; one that comes out through a
-  // surface was. rise: cosine of its angle with the surface's normal.
-  Sight follow(vec3 from, vec3 direction, float rise) {
+  // surface was. side: the surface's normal.
+  Sight follow(vec3 from, vec3 direction, vec3 side) {
     float along = dot(from, direction);
     vec3 foot = from - along * direction;
     float height = max(length(foot), 1e-3);
@@ -46,13 +50,13 @@ export const kReflectionGlsl = (unit: string): string => `
     float last = atan(along + kFarthestM, height);
     Step near = stepAt(ray, atan(along, height));
     float wide = (last - near.angle) / kWideSteps, next = wide;
-    bool hidden = hides(near, slackM(near.range)), inSight = !hidden;
+    bool hidden = hides(near, slackM(near, side)), inSight = !hidden;
     Sight guess = Sight(false, direction, 0.0);
     for (int i = 0; i < kMostSteps && near.angle < last; ++i) {
       Step far = stepAt(ray, min(near.angle + next, last));
       // Just above its own surface a ray may lie behind that by a texel.
-      float above = (height * tan(far.angle) - along) * rise;
-      float own = slackM(far.range) * clamp(1.0 - above / (0.03 * far.range), 0.0, 1.0);
+      float above = dot(far.range * far.towards - from, side);
+      float own = slackM(far, side) * clamp(1.0 - above / (2.0 * kHalfTexel * far.range), 0.0, 1.0);
       if (hides(far, own) == hidden) {
         near = far;
         next = min(1.6 * next, wide);
@@ -93,12 +97,8 @@ export const kReflectionGlsl = (unit: string): string => `
 
   // Radiance in cd/m2 along a mirrored ray; mean where the probe does not see what is there.
   vec3 seenAlong(vec3 direction, vec3 side, float roughness, vec3 mean) {
-    float rise = dot(direction, side);
-    if (rise < 0.0) {
-      direction -= 2.0 * rise * side;
-      rise = -rise;
-    }
-    Sight sight = follow(vPosition - uProbeAt, direction, rise);
+    direction -= 2.0 * min(dot(direction, side), 0.0) * side;
+    Sight sight = follow(vPosition - uProbeAt, direction, side);
     if (!sight.found) return mean;
     vec3 sharp = textureLod(uAround, sight.at, 0.0).rgb * ${unit};
     bool single = uPicture < 0.0 && roughness >= kSmooth;
@@ -139,19 +139,16 @@ export const kReflectionGlsl = (unit: string): string => `
     vec3 mean = lux / kPi;
     if (!uReflect || roughness >= kRough) return mean;
     float alpha = roughness * roughness;
-    vec3 seen, side = normalize(vNormal);
+    vec3 side = normalize(vNormal), seen = vec3(0.0);
     if (dot(side, v) < 0.0) side = -side;
-    if (uPicture < 0.0 || roughness < kSmooth) {
-      vec3 most = mix(n, reflect(-v, n), (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha));
-      seen = seenAlong(normalize(most), side, roughness, mean);
-    } else {
-      vec2 start = scattered(uvec2(gl_FragCoord.xy));
-      seen = vec3(0.0);
-      int rays = weight < kFaint ? 2 : weight < kStrong ? kRays : kMostRays;
-      for (int k = 0; k < rays; ++k) {
-        vec2 u = fract(start + (uPicture * float(rays) + float(k)) * vec2(0.75487767, 0.56984029));
-        seen += seenAlong(sampleLobe(n, v, 0.5 * alpha, u), side, 0.93 * roughness, mean) / float(rays);
-      }
+    bool lone = uPicture < 0.0 || roughness < kSmooth;
+    int rays = lone ? 1 : weight < kFaint ? 2 : weight < kStrong ? kRays : kMostRays;
+    vec3 most = normalize(mix(n, reflect(-v, n), (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha)));
+    vec2 start = scattered(uvec2(gl_FragCoord.xy));
+    for (int k = 0; k < rays; ++k) {
+      vec2 u = fract(start + (uPicture * float(rays) + float(k)) * vec2(${kR2[0]}, ${kR2[1]}));
+      vec3 ray = lone ? most : sampleLobe(n, v, 0.5 * alpha, u);
+      seen += seenAlong(ray, side, (lone ? 1.0 : 0.93) * roughness, mean) / float(rays);
     }
     return mix(seen, mean, smoothstep(0.6, kRough, roughness));
   }`;
