@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "bake/bake.h"
+#include "bake/page.h"
 #include "bake/seen_sides.h"
 #include "base/hash.h"
 #include "base/parallel.h"

@@ -9,15 +9,13 @@
 #include "bake/home_places.h"
 #include "bake/light_texels.h"
 #include "bake/lit_places.h"
+#include "bake/page.h"
 #include "bake/simplify.h"
 #include "home/cameras.h"
 #include "look/display.h"
-#include "report/page.h"
 
 namespace roomlight::bake {
 namespace {
-
-constexpr std::string_view kMark = "<!--roomlight-home-->", kTitle = "<title>roomlight</title>";
 
 bool sameLamp(const Lamp& a, const Lamp& b) { return a.name == b.name && length(a.position - b.position) < 1e-3f; }
 
@@ -85,10 +83,9 @@ Result<LaidOut> layOut(const RayScene& home, bool sun, const BakeSettings& setti
 
 constexpr double kBytesATexel = 4;         // of light, before it is compressed
 constexpr double kBytesOfLightMap = 2;     // of it, a texel
-constexpr double kBytesOfText = 4.0 / 3;  // a byte: base64
 
 size_t writtenSize(const BakeWish& wish, const std::string& glb) {
-  return wish.asText ? static_cast<size_t>(kBytesOfText * static_cast<double>(deflated(glb).size())) : glb.size();
+  return wish.asText ? static_cast<size_t>(kCharactersAByte * static_cast<double>(deflated(glb).size())) : glb.size();
 }
 
 // Of the file as it will be written, as far as that is known before there is light.
@@ -99,7 +96,7 @@ Result<FileParts> partsOf(const LaidOut& laid, const BakeWish& wish, const BakeS
   const Result<LightLayers> lamps = layersOf(laid.scene, Lights(laid.scene));
   const size_t layers = (lamps ? lamps.value().size() : laid.scene.rooms.size()) + 2 * wish.hours.size();
   // Textures and light are compressed already, and grow as all does that becomes text.
-  const double grows = wish.asText ? kBytesOfText : 1;
+  const double grows = wish.asText ? kCharactersAByte : 1;
   const double size = static_cast<double>(writtenSize(wish, dark.value().bytes)),
                textures = grows * static_cast<double>(dark.value().textureBytes);
   const double bytesATexel =
@@ -233,32 +230,6 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
     for (const PlacedChart& chart : laid.atlas.charts) out.triangles += chart.indices.size() / 3;
     return out;
   });
-}
-
-namespace {
-
-Result<std::string> withElement(std::string page, const std::string& title, const std::string& element) {
-  const std::pair<std::string_view, std::string> places[] = {
-      {kMark, element}, {kTitle, fmt::format("<title>{}</title>", report::escaped(title))}};
-  for (const auto& [mark, text] : places) {
-    const size_t at = page.find(mark);
-    if (at == std::string::npos) return Error{"the page has no place for a home; build it anew with scripts/build"};
-    page.replace(at, mark.size(), text);
-  }
-  return page;
-}
-
-}  // namespace
-
-Result<std::string> pageWithHome(const std::string& page, const std::string& title, const std::string& glb) {
-  const std::string element =
-      fmt::format("<script type=\"application/octet-stream\" id=\"roomlight-home\" data-bytes=\"{}\">{}</script>",
-                  glb.size(), report::base64(deflated(glb)));
-  return withElement(page, title, element);
-}
-
-Result<std::string> pageWithLink(const std::string& page, const std::string& title, const std::string& file) {
-  return withElement(page, title, fmt::format("<link id=\"roomlight-home\" href=\"{}\">", file));
 }
 
 }  // namespace roomlight::bake

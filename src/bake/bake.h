@@ -45,9 +45,4 @@ struct BakedHome {
 // can be seen; what glbOf() and lighting say.
 Result<BakedHome> bakeHome(const Scene& scene, const BakeWish& wish, const BakeSettings& settings, Stages& stages);
 
-// `page`: the built page with its mark for the home; `title`: the home's name. The whole page with the home inside, or
-// with a link to a file beside it. Errors: the mark is missing.
-Result<std::string> pageWithHome(const std::string& page, const std::string& title, const std::string& glb);
-Result<std::string> pageWithLink(const std::string& page, const std::string& title, const std::string& file);
-
 }  // namespace roomlight::bake

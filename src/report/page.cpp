@@ -30,8 +30,7 @@ footer{margin-top:36px;padding-top:14px;border-top:1px solid var(--line);color:v
 @media print{body{background:#fff}main{padding:0;max-width:none}}
 )";
 
-}  // namespace
-
+// RFC 4648, with padding: what a data: URI takes.
 std::string base64(std::span<const char> bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
@@ -44,6 +43,8 @@ std::string base64(std::span<const char> bytes) {
   }
   return out;
 }
+
+}  // namespace
 
 std::string escaped(const std::string& text) {
   std::string out;

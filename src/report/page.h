@@ -30,7 +30,4 @@ std::string jpegPicture(const std::string& alt, std::span<const char> jpeg);
 // Pictures or drawings with what is said below them; both are HTML, `caption` may be empty. `kind`: its class.
 std::string figure(const std::string& content, const std::string& caption = {}, const std::string& kind = {});
 
-// RFC 4648, with padding: what a data: URI takes.
-std::string base64(std::span<const char> bytes);
-
 }  // namespace roomlight::report

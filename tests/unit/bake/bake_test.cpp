@@ -330,18 +330,5 @@ TEST_F(Bake, aHomeThatNobodySeesIsToldSo) {
   EXPECT_EQ(baked.error(), "nothing of the home can be seen from its rooms or cameras");
 }
 
-TEST(BakedPage, takesTheHomeOrALinkInItsPlace) {
-  const std::string page = "<title>roomlight</title><!--roomlight-home-->";
-  const std::string whole = pageWithHome(page, "Anna & Ben", std::string(1000, 'a')).value();
-  EXPECT_TRUE(
-      whole.starts_with("<title>Anna &amp; Ben</title><script type=\"application/octet-stream\" "
-                        "id=\"roomlight-home\" data-bytes=\"1000\">"));
-  EXPECT_TRUE(whole.ends_with("</script>"));
-  EXPECT_LT(whole.size(), 200u);  // packed
-  EXPECT_EQ(pageWithLink(page, "flat", "home-1.glb").value(),
-            "<title>flat</title><link id=\"roomlight-home\" href=\"home-1.glb\">");
-  EXPECT_FALSE(pageWithHome("<title>roomlight</title>", "flat", "abc"));
-}
-
 }  // namespace
 }  // namespace roomlight::bake

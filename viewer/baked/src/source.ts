@@ -1,25 +1,9 @@
-// Finds the file of the home: in the page as base64, or beside it.
+// Finds the file of the home: in the page as text, or beside it.
 import { BadFile } from "./bad_file.js";
+import { bytesOf } from "./page_text.js";
 import { inflate } from "./texels.js";
 
 const kId = "roomlight-home";
-const kCharsAtOnce = 1 << 20; // a multiple of 4
-
-export function decodeBase64(text: string): Uint8Array {
-  const clean = text.trim();
-  const padding = clean.endsWith("==") ? 2 : clean.endsWith("=") ? 1 : 0;
-  const bytes = new Uint8Array(Math.max(0, Math.floor((clean.length * 3) / 4) - padding));
-  let at = 0;
-  try {
-    for (let from = 0; from < clean.length; from += kCharsAtOnce) {
-      const part = atob(clean.slice(from, from + kCharsAtOnce));
-      for (let i = 0; i < part.length; ++i) bytes[at++] = part.charCodeAt(i);
-    }
-  } catch {
-    throw new BadFile("damaged", "base64");
-  }
-  return bytes.subarray(0, at);
-}
 
 // `progress`: share that has come.
 export async function homeBytes(progress: (share: number) => void): Promise<Uint8Array> {
@@ -27,8 +11,8 @@ export async function homeBytes(progress: (share: number) => void): Promise<Uint
   if (element instanceof HTMLScriptElement) {
     const text = element.textContent ?? "";
     element.textContent = "";
-    if (text.trim() === "") throw new BadFile("missing");
-    const bytes = decodeBase64(text);
+    if (text === "") throw new BadFile("missing");
+    const bytes = bytesOf(text);
     const unpacked = Number(element.dataset.bytes ?? 0); // of a zlib stream
     return unpacked > 0 ? inflate(bytes, unpacked, "home") : bytes;
   }

@@ -366,10 +366,9 @@ test("a phone: stick, drag, and controls on a sheet", { skip }, async () => {
   const [x, y] = [stick.x + stick.width / 2, stick.y + stick.height / 2];
   await finger("touchStart", x, y);
   await finger("touchMove", x, y - 40);
-  const frames = () => page.locator("#view").evaluate(view => Number((view as HTMLElement).dataset.frames));
-  const before = await frames();
+  const before = await visit.frames();
   await page.waitForTimeout(1500);
-  while ((await frames()) < before + 8) await page.waitForTimeout(50); // a busy processor draws few
+  while ((await visit.frames()) < before + 8) await page.waitForTimeout(50); // a busy processor draws few
   await finger("touchEnd");
   const walked = await position();
   assert.ok(walked[2]! < 3.6, `the stick walks ahead: ${walked}`);

@@ -115,13 +115,12 @@ test("a gamepad walks, turns and runs", { skip }, async () => {
   });
   const { page } = visit;
   await visit.settled();
-  const frames = () => page.locator("#view").evaluate(view => Number((view as HTMLElement).dataset.frames));
   // For so many frames at least: a busy processor draws few.
   const hold = async (axes: readonly number[], ms: number, least: number) => {
-    const before = await frames();
+    const before = await visit.frames();
     await page.evaluate(a => void ((window as unknown as { pad: { axes: readonly number[] } }).pad.axes = a), axes);
     await page.waitForTimeout(ms);
-    while ((await frames()) < before + least) await page.waitForTimeout(50);
+    while ((await visit.frames()) < before + least) await page.waitForTimeout(50);
     await page.evaluate(() => void ((window as unknown as { pad: { axes: number[] } }).pad.axes = [0, 0, 0, 0]));
     await visit.settled();
     await page.waitForTimeout(600);

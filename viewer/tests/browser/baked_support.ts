@@ -8,6 +8,7 @@ import { deflateSync } from "node:zlib";
 import { pathToFileURL } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import type { Vec3 } from "../../src/vector.js";
+import { textOf } from "../double/page_text.js";
 import { kBrowser, kShots, noBrowser } from "./support.js";
 
 const kPage = "dist-baked/index.html";
@@ -43,7 +44,7 @@ export function writePage(name: string, file: Uint8Array | null): string {
   const path = resolve(`build/baked-pages/${name}.html`);
   const page = readFileSync(kPage, "utf8");
   assert.ok(page.includes(kMarker));
-  const packed = file ? deflateSync(file).toString("base64") : "";
+  const packed = file ? textOf(deflateSync(file)) : "";
   const data = file
     ? `<script type="application/octet-stream" id="roomlight-home" data-bytes="${file.length}">${packed}</script>`
     : "";
@@ -71,6 +72,7 @@ export async function serveFolder(file: Uint8Array): Promise<{ link: string; end
 export interface BakedVisit {
   readonly page: Page;
   settled(): Promise<void>;
+  frames(): Promise<number>; // drawn so far
   stopped(): Promise<string>; // the one line that says why
   shot(name: string): Promise<void>;
   color(x: number, y: number): Promise<Vec3>; // mean of 8 x 8 pixels about a place, 0 to 1
@@ -108,6 +110,7 @@ export async function visitHome(
         timeout: 180000,
       });
     },
+    frames: () => page.locator("#view").evaluate(view => Number((view as HTMLElement).dataset.frames)),
     stopped: async () => {
       await stopped();
       return (await page.locator("#line").textContent()) ?? "";

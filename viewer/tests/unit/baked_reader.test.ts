@@ -5,11 +5,12 @@ import { BadFile } from "../../baked/src/bad_file.js";
 import { checkDocument, viewBytes } from "../../baked/src/document.js";
 import { readGeometry } from "../../baked/src/geometry.js";
 import { parseGlb } from "../../baked/src/glb.js";
-import { decodeBase64 } from "../../baked/src/source.js";
+import { bytesOf } from "../../baked/src/page_text.js";
 import { decodeTexel, encodeTexel, inflate, unpackTexels } from "../../baked/src/texels.js";
 import type { Vec3 } from "../../src/vector.js";
 import { bakedHome, glb, kLampLux } from "../double/baked_home.js";
 import { packTexels } from "../double/pack_texels.js";
+import { textOf } from "../double/page_text.js";
 import { nearAll } from "./near.js";
 
 const isFault = (fault: string) => (error: unknown) => error instanceof BadFile && error.fault === fault;
@@ -159,10 +160,17 @@ test("indices and views beyond what is there are faults", () => {
   );
 });
 
-test("base64 is decoded, and what is none is a fault", () => {
-  const bytes = Uint8Array.from({ length: 1000 }, (_, i) => i & 255);
-  assert.deepEqual(decodeBase64(`\n${Buffer.from(bytes).toString("base64")}\n`), bytes);
-  assert.throws(() => decodeBase64("&&&&"), isFault("damaged"));
+test("text of a page gives its bytes, and what is none is a fault", () => {
+  const bytes = Uint8Array.from({ length: 1000 }, (_, i) => (i * i) & 255);
+  for (const length of [0, 1, 2, 5, 6, 7, 999, 1000]) {
+    const part = bytes.slice(0, length);
+    assert.deepEqual(bytesOf(textOf(part)), part);
+  }
+  assert.deepEqual(bytesOf("\x03\x06"), Uint8Array.of(255)); // 2 x 125 + 5
+  assert.deepEqual(bytesOf("\x01\x01\x01\x01\x01\x01\x7f"), Uint8Array.of(0, 0, 0, 0, 0, 124));
+  for (const text of ["ab\r", "a<", "a\0", "\ufffda"]) assert.throws(() => bytesOf(text), isFault("damaged"));
+  assert.throws(() => bytesOf("\x03\x07"), isFault("damaged")); // 256 is no byte
+  assert.throws(() => bytesOf("abcdefgh"), isFault("cut"));
 });
 
 test("the image of a texture may be WebP, in its extension", () => {
