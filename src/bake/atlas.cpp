@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "bake/shared_vertices.h"
@@ -68,6 +69,8 @@ class AtlasWriter {
   void addTexels(Chart chart, const ChartGrid& grid, int x, int y) {
     const ChartSurface surface(scene_, chart);
     const ChartTexels texels(surface, chart, grid, 1, kReachTexels);
+    std::optional<ChartTexels> cells;
+    if (!normalsAreAlike(surface, chart)) cells.emplace(surface, chart, grid, kCellsATexel, 0.0f);
     const int w = texels.width(), h = texels.height();
     std::vector<uint32_t> elementAt(texels.count(), kNone);
     for (size_t i = 0; i < texels.count(); ++i) {
@@ -75,7 +78,7 @@ class AtlasWriter {
       const int tx = static_cast<int>(i) % w, ty = static_cast<int>(i) / w;
       if (tx < kGap || ty < kGap || tx >= w - kGap || ty >= h - kGap) continue;
       elementAt[i] = static_cast<uint32_t>(atlas_.elements.size());
-      atlas_.elements.push_back(texels.element(i, {}));
+      atlas_.elements.push_back(cells ? typicalElement(texels, *cells, i) : texels.element(i, {}));
       atlas_.texels.push_back(texelAt(x + tx, y + ty));
     }
     pad(elementAt, texels, {x, y});

@@ -9,6 +9,7 @@ namespace roomlight::bake {
 namespace {
 
 constexpr float kLongestFootprintM = 0.3f;  // over which a texel's direct light is averaged
+constexpr float kTypical = 0.985f;  // cosine between the normal of a place and the mean of its texel's: 10°
 
 Vec2 nearestOnEdge(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 e = b - a, d = p - a;
@@ -132,6 +133,42 @@ SurfaceElement ChartTexels::element(size_t cell, OffEdge off) const {
       kLongestFootprintM, 1 / (std::sqrt(std::max(grid_.perM.x * grid_.perM.y, 1e-6f)) * static_cast<float>(fine_)));
   return {offEdge(place, (p[0] + p[1] + p[2]) / 3, off),
           surface_.normalAt(at.triangle, ChartSurface::geometricNormal(p), at.b1, at.b2), edgeM};
+}
+
+bool normalsAreAlike(const ChartSurface& surface, const Chart& chart) {
+  constexpr Vec2 kCorners[] = {{0, 0}, {1, 0}, {0, 1}};
+  return std::all_of(chart.triangles.begin(), chart.triangles.end(), [&](uint32_t t) {
+    const Vec3 geometric = ChartSurface::geometricNormal(surface.placesOf(surface.cornersOf(t)));
+    return std::all_of(std::begin(kCorners), std::end(kCorners),
+                       [&](Vec2 b) { return dot(surface.normalAt(t, geometric, b.x, b.y), chart.normal) >= kTypical; });
+  });
+}
+
+SurfaceElement typicalElement(const ChartTexels& texels, const ChartTexels& cells, size_t texel) {
+  const SurfaceElement own = texels.element(texel, {});
+  const int x = static_cast<int>(texel) % texels.width(), y = static_cast<int>(texel) / texels.width();
+  std::array<SurfaceElement, kCellsATexel * kCellsATexel> found;
+  size_t count = 0;
+  Vec3 sum;
+  for (int k = 0; k < kCellsATexel * kCellsATexel; ++k) {
+    const int cx = kCellsATexel * x + k % kCellsATexel, cy = kCellsATexel * y + k / kCellsATexel;
+    const auto cell = static_cast<size_t>(cy * cells.width() + cx);
+    if (!cells.covers(cell)) continue;
+    found[count] = cells.element(cell, {});
+    sum += found[count++].normal;
+  }
+  if (!(length(sum) > 0.1f)) return own;
+  const Vec3 mean = normalize(sum);
+  if (dot(own.normal, mean) >= kTypical) return own;
+  // The nearest of those that are typical; where none is, the one that is most.
+  const auto rank = [&](const SurfaceElement& e) {
+    const float facing = std::min(dot(e.normal, mean), kTypical);
+    return std::pair(-facing, length(e.position - own.position));
+  };
+  SurfaceElement best = *std::min_element(found.begin(), found.begin() + static_cast<ptrdiff_t>(count),
+                                          [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  best.footprintM = own.footprintM;
+  return best;
 }
 
 }  // namespace roomlight::bake

@@ -58,6 +58,7 @@ class ChartTexels {
   bool onTriangle(size_t cell) const { return nearest_[cell].triangle != kNone; }
   // That place. Needs onTriangle().
   SurfaceElement element(size_t cell, OffEdge off) const;
+  bool covers(size_t cell) const { return nearest_[cell].distance2 <= 0; }  // the middle of a cell
   // A place of the world in texels from the upper left of the gap; (0, 0) is the middle of a texel.
   Vec2 onGrid(Vec3 p) const;
 
@@ -77,5 +78,12 @@ class ChartTexels {
   const float reachTexels_;
   std::vector<Corner> nearest_;  // distances in cells
 };
+
+// The place that stands for a texel: its own, unless its normal is not that of most of its square. A rounded edge is
+// not the face beside it. `cells`: of the same chart and grid, kCellsATexel a texel; not asked where all normals are
+// alike.
+constexpr int kCellsATexel = 4;  // even: none has its middle on the edge of a face
+bool normalsAreAlike(const ChartSurface& surface, const Chart& chart);
+SurfaceElement typicalElement(const ChartTexels& texels, const ChartTexels& cells, size_t texel);
 
 }  // namespace roomlight::bake

@@ -81,6 +81,35 @@ TEST(Atlas, elementsFaceTheLitSideAndAreOffTheEdges) {
   }
 }
 
+// A slat of 3 cm whose long edges are rounded over a millimetre, and shaded smoothly.
+Scene roundedSlat() {
+  Scene scene;
+  const float x[] = {-0.015f, -0.0136f, 0.0136f, 0.015f}, z[] = {-0.0005f, 0, 0, -0.0005f}, lean[] = {-1, 0, 0, 1};
+  Mesh mesh;
+  for (size_t k = 0; k < 4; ++k) {
+    for (const float y : {0.0f, 2.0f}) {
+      mesh.positions.push_back({x[k], y, z[k]});
+      mesh.normals.push_back(normalize(Vec3(lean[k], 0, 1)));
+    }
+  }
+  for (uint32_t k = 0; k < 6; k += 2) mesh.indices.insert(mesh.indices.end(), {k, k + 2, k + 3, k, k + 3, k + 1});
+  mesh.material = addMaterial(scene, lambertian(0.5f));
+  scene.meshes.push_back(mesh);
+  scene.instances.push_back({});
+  return scene;
+}
+
+TEST(Atlas, theFaceAndNotItsRoundedEdgeIsLit) {
+  const Atlas atlas = atlasOfAll(roundedSlat());
+  ASSERT_EQ(atlas.charts.size(), 1u);
+  EXPECT_GE(atlas.elements.size(), 20u);
+  for (const SurfaceElement& e : atlas.elements) {
+    EXPECT_GT(e.normal.z, 0.99f);
+    EXPECT_LT(std::abs(e.position.x), 0.0136f);
+    EXPECT_GT(e.footprintM, 0.04f);
+  }
+}
+
 TEST(Atlas, texelsAreAsFineAsAskedAndTheGroundIsCoarse) {
   Scene scene = room();
   addRectangle(scene, {-50, -0.1f, -50}, {0, 0, 100}, {100, 0, 0}, 0);
