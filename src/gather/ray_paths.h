@@ -32,6 +32,7 @@ struct GatherPath {
                        // emissive meshes, once polished surfaces have reflected it
   bool picture;  // seen by the camera in a surface as smooth as a mirror
   float spread;  // roughness that surfaces have for it at least
+  bool sunKnown = false;  // what it finds of the sun itself is counted elsewhere
 };
 
 // A surface to be lit. The first has its lobes apart; later ones send their light back along a path.
@@ -50,6 +51,8 @@ struct GatherVertex {
   bool causticsKnown = false;  // photons have brought what polished surfaces throw on the first; of later vertices:
                                // they are such surfaces
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
+  float gloss = 0;  // above zero: of a later vertex the glossy lobe alone, times this,
+  bool sunKnown = false;  // and without what it reflects of the sun
   const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
 
   // Whether what its glossy lobe reflects is seen as a picture.
@@ -61,9 +64,11 @@ struct GatherVertex {
 
   Lobes value(Vec3 wi) const {
     if (first) return {glossOnly ? Vec3(0) : bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
-    const Vec3 f = bsdf.evaluate(wi);
+    const Vec3 f = gloss > 0 ? bsdf.evaluateSpecular(wi) * gloss : bsdf.evaluate(wi);
     return {factor.diffuse * f, factor.specular * f};
   }
+  // Density with which its rays go on along wi.
+  float pdf(Vec3 wi) const { return gloss > 0 ? bsdf.pdfSpecular(wi) : bsdf.pdf(wi); }
 };
 
 // Of a path's light that photons may have brought, what they have not: it came from a light, by polished surfaces

@@ -91,7 +91,7 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
       f.specular *= misWeight(light.pdf, v.bsdf.pdfSpecular(light.wi));
     } else {
       const float weight =
-          misWeight(light.pdf, v.guided(v.followed ? cosinePdf(v, light.wi) : v.bsdf.pdf(light.wi), light.wi));
+          misWeight(light.pdf, v.guided(v.followed ? cosinePdf(v, light.wi) : v.pdf(light.wi), light.wi));
       f.diffuse *= weight, f.specular *= weight;
     }
   }
@@ -140,7 +140,7 @@ void RayScatter::lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork
       const LightSample lamp = field_.seen.sampleLamps(lights_, v.s.p, v.side, sampler);
       if (!leavesToCache(v, lamp)) takeLocal(lamp);
     }
-    for (size_t i = 0; i < lights_.sunCount(); ++i)
+    for (size_t i = 0; i < lights_.sunCount() && !v.sunKnown; ++i)
       take(lights_.sampleSun(i, sampler.next2()), layers ? layers->sun : -1);
   }
   if (lights_.hasEmitters()) {
@@ -305,7 +305,7 @@ void RayScatter::glowAt(const GatherVertex& v, const BrightPatches::Candidates& 
     return;
   const Vec3 wi = g.light.wi;
   Lobes f = v.value(wi);
-  const float cosine = v.guided(cosinePdf(v, wi), wi), mixed = v.guided(v.bsdf.pdf(wi), wi);
+  const float cosine = v.guided(cosinePdf(v, wi), wi), mixed = v.guided(v.pdf(wi), wi);
   const float density = patches_.densityAt(g.point, v.s.p, v.side);
   f.diffuse *= BrightPatches::pointShare(density, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : BrightPatches::pointShare(density, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
@@ -344,12 +344,14 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
                       v.lampsKnown,
                       v.causticsKnown,
                       clear && v.picture(),
-                      spread});
+                      spread,
+                      v.sunKnown});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();
-    const BsdfSample b = v.bsdf.sample(u, sampler.next1());
+    BsdfSample b = v.gloss > 0 ? v.bsdf.sampleSpecular(u) : v.bsdf.sample(u, sampler.next1());
     if (!b.valid()) return;
+    if (v.gloss > 0) b.weight *= v.gloss;
     const float survive = std::clamp(maxComponent(b.weight), 0.05f, 1.0f);
     if (sampler.next1() >= survive) return;
     const Vec3 weight = b.weight / survive;

@@ -16,13 +16,15 @@ constexpr float kFaintCells = 3;  // that such a reflection is taken from
 constexpr float kAlike = 0.5f;     // cosine between normals of a place and of a slot that may have taken its light
 constexpr float kNearCells =
     2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
+constexpr float kGlossy = 0.6f;  // roughness from which on a surface reflects evenly enough
 constexpr float kFarM = 1000;    // away: what panes show of the sky
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
 enum Kind : uint8_t {
   kShines = 1,  // emits light
   kClearKind = 2,  // lets light through
-  kMirrorKind = 4
+  kMirrorKind = 4,
+  kGlossyKind = 8  // the cache knows how much it reflects, not where to
 };
 
 uint8_t kindOf(const Material& m) {
@@ -30,6 +32,7 @@ uint8_t kindOf(const Material& m) {
   if (!isBlack(m.emission)) kind |= kShines;
   if (letsLightThrough(m)) kind |= kClearKind;
   if (isPolishedMetal(m)) kind |= kMirrorKind;  // no part of the cache
+  if (m.roughness < kGlossy || m.metallicRoughnessTexture.texture >= 0) kind |= kGlossyKind;
   return kind;
 }
 
@@ -143,7 +146,7 @@ void RayShader::prefetch(GatherWork& w) const {
     if (!hit.valid()) continue;
     const Vec3 d = w.rays[i].direction, p = w.rays[i].origin + d * hit.t;
     w.places.push_back(p);
-    if (kind_[hit.instance] == 0 && !w.paths[i].clear) {
+    if ((kind_[hit.instance] & ~kGlossyKind) == 0 && !w.paths[i].clear) {
       w.cells.push_back({p, dot(hit.ng, d) < 0 ? hit.ng : -hit.ng, hit.instance});
     } else {
       w.surfaces.push_back(hit);
@@ -303,7 +306,7 @@ Vec3 RayShader::skyAlong(const GatherPath& path) const {
 
 Vec3 RayShader::sunsAlong(const GatherPath& path) const {
   Vec3 sum;
-  for (size_t i = 0; i < lights_.sunCount(); ++i) {
+  for (size_t i = 0; i < lights_.sunCount() && !path.sunKnown; ++i) {
     float pdf;
     const Vec3 disc = lights_.sunDisc(i, path.ray.direction, pdf);
     if (pdf > 0) sum += disc * (path.pdf > 0 ? misWeight(path.pdf, pdf) : 1);
@@ -332,7 +335,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
   }
   const uint8_t kind = kind_[hit.instance];
   const bool lit = path.clear && !isFaint(path);  // afresh, as the picture that is seen
-  if (kind == 0 && !lit) {
+  if ((kind & ~kGlossyKind) == 0 && !lit) {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
     if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return w.show(path, path.ray.origin + d * hit.t, n);
   }
@@ -545,9 +548,16 @@ void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& 
 // spread evenly.
 void RayShader::addCached(const GatherPath& path, const Hit& hit, const CachedLight& light, const LeftToPoints& points,
                           const LightOrigin& origin, GatherWork& w) const {
-  const Vec3 ofRay = light.even * points.ray(),
-             bent = light.sunLux > 0 ? max(-light.even, sunward(path, hit, light.sunLux, light.normal)) : Vec3(0);
-  const Vec3 radiance = max(Vec3(0), ofRay + bent * (1 - points.ofSun));
+  Vec3 ofRay = light.even * points.ray(),
+       bent = light.sunLux > 0 ? max(-light.even, sunward(path, hit, light.sunLux, light.normal)) : Vec3(0);
+  bent *= 1 - points.ofSun;
+  if ((kind_[hit.instance] & kGlossyKind) && path.depth < kDeepest && !path.clear && !shinesBesideLamps(light.slot)) {
+    // What the sun has in it is spread evenly all the same: its gloss is in `bent`.
+    const Vec3 kept = keptByGloss(path, hit, w);
+    const float sun = light.lux > 0 ? std::clamp(light.sunLux / light.lux - points.sun, 0.0f, points.ray()) : 0;
+    bent += light.even * (Vec3(1) - kept) * sun, ofRay *= kept;
+  }
+  const Vec3 radiance = max(Vec3(0), ofRay + bent);
   const Lobes added = w.add(path.estimate, path.factor, radiance, {});
   if (!w.layers || isBlack(added.diffuse + added.specular)) return;
   // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
@@ -556,6 +566,24 @@ void RayShader::addCached(const GatherPath& path, const Hit& hit, const CachedLi
   if (!isBlack(ofSun))
     w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun},
                   LightOrigin::ofLayer(field_.layers.lights->sun));
+}
+
+Vec3 RayShader::keptByGloss(const GatherPath& path, const Hit& hit, GatherWork& w) const {
+  SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
+  const Vec3 all = bihemisphericalAlbedo(s.m);
+  s.m.roughness = std::max(s.m.roughness, path.spread);
+  if (s.m.roughness >= kGlossy || isInGlow(s.p, s.ng)) return Vec3(1);
+  const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
+  const float glossy = luminance(bsdf.specularAlbedo()), sum = glossy + luminance(bsdf.diffuseAlbedo());
+  if (!(glossy > 0)) return Vec3(1);
+  const float chance = glossy / sum;
+  if (w.samplers[path.estimate].fast1() < chance) {
+    GatherVertex v{s,     bsdf,  path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false,
+                   false, false, false};
+    v.gloss = 1 / chance, v.sunKnown = !field_.sunLux.empty();
+    scatter_.from(v, w);
+  }
+  return min(bsdf.diffuseAlbedo() / max(all, Vec3(1e-6f)), Vec3(1));
 }
 
 RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, const CachedLight& light, Vec3 p,

@@ -77,6 +77,36 @@ TEST(MetersOfSquares, haveTheMeanOfDirectLight) {
   for (size_t i = 0; i < share.size(); ++i) EXPECT_NEAR(luminance(lux[i].illuminanceLux), 2000 * share[i], 40) << i;
 }
 
+// A floor throws most of what comes from a window on the wall that faces it.
+TEST(MetersBesideGloss, readWhatAFloorReflects) {
+  Scene scene;
+  Material polished = test::lambertian(0.05f);
+  polished.specular = 1, polished.roughness = 0.45f;
+  const int black = test::addMaterial(scene, test::lambertian(0));
+  std::vector<int> materials(6, black);
+  test::addRoom(scene, {0, 0, 0}, {5, 2.6f, 4}, materials);
+  addRectangle(scene, {0, 0.1f, 0}, {0, 0, 4}, {5, 0, 0}, test::addMaterial(scene, polished));
+  addRectangle(scene, {0.1f, 0.9f, 1}, {0, 1.2f, 0}, {0, 0, 2}, test::addMaterial(scene, test::lambertian(0, 1000)));
+  std::vector<SurfaceElement> elements;
+  for (const float height : {0.3f, 0.6f, 1.2f}) elements.push_back({{4.9f, height, 2}, {-1, 0, 0}});
+  std::array<std::vector<MeterReading>, 2> read;
+  for (const bool path : {false, true}) {
+    RenderSettings settings;
+    settings.technique = path ? technique::kPath : technique::kHybrid;
+    RenderStats stats;
+    const RenderProgress quiet;
+    Stages stages(quiet, stats);
+    const auto lit = lightScene(scene, settings, stages, {.changes = false});
+    ASSERT_TRUE(lit);
+    read[path] = lit.value()->illuminance(elements, {0.002, 1 << 14, 1 << 18, 0});
+  }
+  for (size_t i = 0; i < elements.size(); ++i) {
+    const float expected = luminance(read[true][i].illuminanceLux);
+    EXPECT_GT(expected, 20.0f);
+    EXPECT_NEAR(luminance(read[false][i].illuminanceLux), expected, 0.015f * expected) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Techniques, Meters, testing::ValuesIn(test::validatedTechniques()),
                          [](const auto& p) { return p.param; });
 
