@@ -179,8 +179,9 @@ Result<BakeSettings> bakeSettings(const std::string& quality) {
   BakeSettings s;
   if (const Status status = applyQuality(quality, s.layers.render); !status) return Error{status.error()};
   if (quality == "draft")
-    s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.002f, s.layers.meters = {0.4, 16, 32, 0};
-  if (quality == "best") s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0};
+    s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.002f, s.layers.meters.tolerance = 0.4;
+  if (quality == "best")
+    s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0, true, kTogether};
   return s;
 }
 

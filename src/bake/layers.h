@@ -29,9 +29,11 @@ struct BakedLayer {
   Image panorama{};              // of the sky, equirectangular, cd/m²
 };
 
+constexpr size_t kTogether = 8;  // places that follow one another get as many samples
+
 struct LayerSettings {
   RenderSettings render;  // technique, voxels, cached light
-  MeterSettings meters{0.2, 16, 32, 0};
+  MeterSettings meters{0.2, 16, 32, 0, true, kTogether};
   KeptLight kept;  // readings of runs before
 };
 

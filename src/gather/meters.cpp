@@ -1,5 +1,6 @@
 #include "gather/meters.h"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 
@@ -16,7 +17,7 @@ constexpr int kBatch = 64;                // samples of a meter in layers at onc
 constexpr int kLeastBatch = 4;            // fewer where fewer samples are asked for, four batches of them
 constexpr int kPlaces = 2;                // on extended lamps, a batch
 constexpr int kSquarePlaces = 16;         // of a meter's square, for lamps that are points
-constexpr float kOfStrongest = 0.03f;      // of light on a meter: layers weaker than that need not be surer than it
+constexpr double kOfStrongest = 0.03;      // of light on a meter: layers weaker than that need not be surer than it
 
 // An ideal white Lambertian surface reflects 1 / pi of what falls on it.
 SurfacePoint whitePatch(const SurfaceElement& element) {
@@ -87,21 +88,27 @@ class LayerMeter {
     const double n = batches_, mean = static_cast<double>(luminance(lux(l)));
     return std::sqrt(std::max(0.0, squares_[l] / n - mean * mean) / (n - 1));
   }
-  bool sureTo(double tolerance) const {
-    float strongest = 0;
-    for (size_t l = 0; l < sum_.size(); ++l) strongest = std::max(strongest, luminance(lux(l)));
-    for (size_t l = 0; l < sum_.size(); ++l) {
-      if (error(l) > tolerance * static_cast<double>(std::max(luminance(lux(l)), kOfStrongest * strongest)))
-        return false;
-    }
-    return true;
-  }
 
  private:
   std::vector<Vec3> sum_;
   std::vector<double> squares_;
   int batches_ = 0;
 };
+
+// Whether the errors of meters, together, are small enough beside their means.
+bool areSure(std::span<const LayerMeter> meters, size_t layers, double tolerance) {
+  const auto n = static_cast<double>(meters.size());
+  std::vector<double> lux(layers), squares(layers);
+  for (const LayerMeter& m : meters) {
+    for (size_t l = 0; l < layers; ++l)
+      lux[l] += static_cast<double>(luminance(m.lux(l))) / n, squares[l] += m.error(l) * m.error(l) / n;
+  }
+  const double strongest = layers > 0 ? *std::max_element(lux.begin(), lux.end()) : 0;
+  for (size_t l = 0; l < layers; ++l) {
+    if (std::sqrt(squares[l]) > tolerance * std::max(lux[l], kOfStrongest * strongest)) return false;
+  }
+  return true;
+}
 
 // Straight from all lamps that are extended, by so many places on each, or from all that are points: each is asked, so
 // that no layer has the noise of a choice among them.
@@ -186,34 +193,42 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
   const int batch = settings.fewestSamples >= kBatch ? kBatch : std::max(kLeastBatch, settings.fewestSamples / 4);
   std::atomic<size_t> done = 0;
   std::mutex reporting;
-  parallelFor(elements.size(), 1, [&](size_t i) {
-    LayerMeter meter(out.layers);
-    std::vector<Vec3> steady(out.layers), means;
-    const auto lamps = [&](bool extended, int firstPlace, int count, std::vector<Vec3>& lux) {
-      std::vector<Sampler> places;
-      for (int k = 0; k < count; ++k)
-        places.emplace_back(mix64(i + kLampKey), static_cast<uint32_t>(firstPlace + k), settings.seed);
-      addLamps({rays, lights}, *shader.layers(), elements[i], extended, places, lux);
-    };
-    lamps(false, 0, elements[i].footprintM > 0 ? kSquarePlaces : 1, steady);
+  const auto lamps = [&](size_t i, bool extended, int firstPlace, int count, std::vector<Vec3>& lux) {
+    std::vector<Sampler> places;
+    for (int k = 0; k < count; ++k)
+      places.emplace_back(mix64(i + kLampKey), static_cast<uint32_t>(firstPlace + k), settings.seed);
+    addLamps({rays, lights}, *shader.layers(), elements[i], extended, places, lux);
+  };
+  const size_t together = settings.together, n = elements.size();
+  parallelFor((n + together - 1) / together, 1, [&](size_t group) {
+    const size_t begin = group * together, end = std::min(n, begin + together);
+    std::vector<LayerMeter> meters(end - begin, LayerMeter(out.layers));
+    std::vector<std::vector<Vec3>> steady(end - begin, std::vector<Vec3>(out.layers));
+    std::vector<Vec3> means;
+    for (size_t i = begin; i < end; ++i)
+      lamps(i, false, 0, elements[i].footprintM > 0 ? kSquarePlaces : 1, steady[i - begin]);
     for (int first = 0, count = std::max(settings.fewestSamples, 2 * batch);
-         count <= std::max(settings.mostSamples, 2 * batch) && !progress.stop(); count *= 2) {
-      for (; first < count && !progress.stop(); first += batch) {
-        means = steady;
-        if (lights.hasExtendedLamps()) lamps(true, first / batch * kPlaces, kPlaces, means);
-        sampleLayers({rays, sharp, shader}, elements[i], {i, first, settings.seed}, batch, means);
-        meter.add(means);
+         count <= std::max(settings.mostSamples, 2 * batch) && !progress.stop(); first = count, count *= 2) {
+      for (size_t i = begin; i < end; ++i) {
+        for (int at = first; at < count && !progress.stop(); at += batch) {
+          means = steady[i - begin];
+          if (lights.hasExtendedLamps()) lamps(i, true, at / batch * kPlaces, kPlaces, means);
+          sampleLayers({rays, sharp, shader}, elements[i], {i, at, settings.seed}, batch, means);
+          meters[i - begin].add(means);
+        }
       }
-      if (meter.sureTo(settings.tolerance)) break;
+      if (areSure(meters, out.layers, settings.tolerance)) break;
     }
-    for (size_t l = 0; l < out.layers; ++l) {
-      if (progress.stop()) break;
-      out.lux[i * out.layers + l] = meter.lux(l);
-      out.standardErrorLux[i * out.layers + l] = static_cast<float>(meter.error(l));
+    if (progress.stop()) return;
+    for (size_t i = begin; i < end; ++i) {
+      for (size_t l = 0; l < out.layers; ++l) {
+        out.lux[i * out.layers + l] = meters[i - begin].lux(l);
+        out.standardErrorLux[i * out.layers + l] = static_cast<float>(meters[i - begin].error(l));
+      }
     }
-    const size_t d = ++done;
+    const size_t d = done += end - begin;
     if (reporting.try_lock()) {
-      progress.at(static_cast<float>(d) / static_cast<float>(elements.size()));
+      progress.at(static_cast<float>(d) / static_cast<float>(n));
       reporting.unlock();
     }
   });

@@ -44,6 +44,17 @@ MeterReading Sums::reading() const {
   return out;
 }
 
+// Whether the error of meters, together, is small enough beside their mean, or beside `darkLux`.
+bool areSure(std::span<const Sums> meters, double tolerance, double darkLux) {
+  double lux = 0, squares = 0;
+  for (const Sums& s : meters) {
+    const MeterReading m = s.reading();
+    lux += static_cast<double>(luminance(m.illuminanceLux)), squares += m.standardErrorLux * m.standardErrorLux;
+  }
+  const auto n = static_cast<double>(meters.size());
+  return std::sqrt(squares / n) <= tolerance * std::max(lux / n, darkLux);
+}
+
 struct Batch {
   size_t meter;
   int first, count;
@@ -103,11 +114,12 @@ std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
     for (const Batch& b : batches) sums[b.meter].add(b.sums);
     if (progress.stop()) break;
     const double dark = kOfMean * meanLux(sums);
-    std::erase_if(open, [&](size_t i) {
-      const MeterReading m = sums[i].reading();
-      return m.standardErrorLux <=
-             settings.tolerance * std::max(static_cast<double>(luminance(m.illuminanceLux)), dark);
-    });
+    std::vector<bool> sure((n + settings.together - 1) / settings.together);
+    for (size_t g = 0; g < sure.size(); ++g) {
+      const size_t first = g * settings.together, last = std::min(n, first + settings.together);
+      sure[g] = areSure(std::span(sums).subspan(first, last - first), settings.tolerance, dark);
+    }
+    std::erase_if(open, [&](size_t i) { return sure[i / settings.together]; });
     progress.at(1 - static_cast<float>(open.size()) / static_cast<float>(n));
   }
   std::vector<MeterReading> out;

@@ -35,6 +35,9 @@ struct MeterSettings {
   // Whether what comes straight from suns counts; techniques that light surfaces by rays and cones (gather/meters.h)
   // can leave it out.
   bool straightSuns = true;
+  // So many elements that follow one another are sure together, by their mean error: one that has seen nothing rare
+  // takes its error for smaller than it is, and stops where another goes on, so that the mean of many is too low.
+  size_t together = 1;
 };
 
 // Light on elements but what comes straight from the sky: that of `count` samples of one of them, from the one numbered
