@@ -17,6 +17,8 @@ constexpr float kAlike = 0.5f;     // cosine between normals of a place and of a
 constexpr float kNearCells =
     2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
 constexpr float kGlossy = 0.6f;  // roughness from which on a surface reflects evenly enough
+constexpr float kMetal =
+    0.5f;  // metallic from which on a surface reflects evenly: its lobe would find too little too rarely
 constexpr float kFarM = 1000;    // away: what panes show of the sky
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
@@ -572,7 +574,7 @@ Vec3 RayShader::keptByGloss(const GatherPath& path, const Hit& hit, GatherWork& 
   SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   const Vec3 all = bihemisphericalAlbedo(s.m);
   s.m.roughness = std::max(s.m.roughness, path.spread);
-  if (s.m.roughness >= kGlossy || isInGlow(s.p, s.ng)) return Vec3(1);
+  if (s.m.roughness >= kGlossy || s.m.metallic > kMetal || isInGlow(s.p, s.ng)) return Vec3(1);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const float glossy = luminance(bsdf.specularAlbedo()), sum = glossy + luminance(bsdf.diffuseAlbedo());
   if (!(glossy > 0)) return Vec3(1);
