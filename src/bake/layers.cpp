@@ -189,69 +189,42 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
 
 namespace {
 
-// Elements of texels, and the light of one layer on them.
-class Smoothing {
- public:
-  explicit Smoothing(const Atlas& atlas)
-      : atlas_(atlas), elementAt_(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNone) {
-    for (size_t i = 0; i < atlas.texels.size(); ++i) elementAt_[atlas.texels[i]] = static_cast<uint32_t>(i);
-  }
-
-  // One pass: neighbours `step` texels apart. What one texel gains the other loses, so that their sum stays.
-  void pass(int step, BakedLayer& layer) const {
-    const auto weight = [&](size_t i, size_t j, int away2) {
-      const float facing = dot(atlas_.elements[i].normal, atlas_.elements[j].normal);
-      const float apart = luminance(layer.lux[i]) - luminance(layer.lux[j]);
-      const float near = static_cast<float>(away2) / (2 * kSpread * kSpread);
-      const float noise = layer.errorLux[i] * layer.errorLux[i] + layer.errorLux[j] * layer.errorLux[j];
-      const float same = apart * apart / std::max(kDeviations * kDeviations * 2 * noise, 1e-12f);
-      return std::exp(-near - same) * std::max(facing, 0.0f);
-    };
-    std::vector<float> weights(layer.lux.size());
-    parallelFor(weights.size(), 512, [&](size_t i) {
-      eachBeside(i, step, [&](size_t j, int away2) { weights[i] += weight(i, j, away2); });
-    });
-    std::vector<Vec3> smooth = layer.lux;
-    std::vector<float> errors = layer.errorLux;
-    parallelFor(smooth.size(), 512, [&](size_t i) {
-      float kept = 1, squares = 0;
-      eachBeside(i, step, [&](size_t j, int away2) {
-        if (j == i) return;
-        const float part = weight(i, j, away2) / std::max(weights[i], weights[j]);
-        smooth[i] += (layer.lux[j] - layer.lux[i]) * part;
-        kept -= part, squares += part * part * layer.errorLux[j] * layer.errorLux[j];
-      });
-      errors[i] = std::sqrt(squares + kept * kept * layer.errorLux[i] * layer.errorLux[i]);
-    });
-    layer.lux = std::move(smooth), layer.errorLux = std::move(errors);
-  }
-
- private:
-  // Calls f(element, squared distance in steps) for those of its chart, itself included; none where vertices are lit.
-  template <class F>
-  void eachBeside(size_t i, int step, const F& f) const {
-    if (atlas_.charts[atlas_.chartOf[i]].chart.byVertices) return;
-    const int x = static_cast<int>(atlas_.texels[i]) % atlas_.width,
-              y = static_cast<int>(atlas_.texels[i]) / atlas_.width;
+// One pass: neighbours `step` texels apart.
+void smoothOnce(const Atlas& atlas, const std::vector<uint32_t>& elementAt, int step, BakedLayer& layer) {
+  std::vector<Vec3> smooth = layer.lux;
+  std::vector<float> errors = layer.errorLux;
+  parallelFor(smooth.size(), 512, [&](size_t i) {
+    if (atlas.charts[atlas.chartOf[i]].chart.byVertices) return;
+    const int x = static_cast<int>(atlas.texels[i]) % atlas.width, y = static_cast<int>(atlas.texels[i]) / atlas.width;
+    Vec3 sum;
+    float weights = 0, squares = 0;
     for (int dy = -kReach; dy <= kReach; ++dy) {
       for (int dx = -kReach; dx <= kReach; ++dx) {
         const int nx = x + dx * step, ny = y + dy * step;
-        if (nx < 0 || ny < 0 || nx >= atlas_.width || ny >= atlas_.height) continue;
-        const uint32_t j = elementAt_[static_cast<size_t>(ny * atlas_.width + nx)];
-        if (j != kNone && atlas_.chartOf[j] == atlas_.chartOf[i]) f(j, dx * dx + dy * dy);
+        if (nx < 0 || ny < 0 || nx >= atlas.width || ny >= atlas.height) continue;
+        const uint32_t j = elementAt[static_cast<size_t>(ny * atlas.width + nx)];
+        if (j == kNone || atlas.chartOf[j] != atlas.chartOf[i]) continue;
+        const float facing = dot(atlas.elements[i].normal, atlas.elements[j].normal);
+        const float apart = luminance(layer.lux[i]) - luminance(layer.lux[j]);
+        const float noise = layer.errorLux[i] * layer.errorLux[i] + layer.errorLux[j] * layer.errorLux[j];
+        const float near = static_cast<float>(dx * dx + dy * dy) / (2 * kSpread * kSpread);
+        const float same = apart * apart / std::max(kDeviations * kDeviations * 2 * noise, 1e-12f);
+        const float w = std::exp(-near - same) * std::max(facing, 0.0f);
+        sum += layer.lux[j] * w, weights += w, squares += w * w * layer.errorLux[j] * layer.errorLux[j];
       }
     }
-  }
-  const Atlas& atlas_;
-  std::vector<uint32_t> elementAt_;
-};
+    if (weights > 0) smooth[i] = sum / weights, errors[i] = std::sqrt(squares) / weights;
+  });
+  layer.lux = std::move(smooth), layer.errorLux = std::move(errors);
+}
 
 }  // namespace
 
 void smoothLayers(const Atlas& atlas, std::vector<BakedLayer>& layers) {
-  const Smoothing smoothing(atlas);
+  std::vector<uint32_t> elementAt(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNone);
+  for (size_t i = 0; i < atlas.texels.size(); ++i) elementAt[atlas.texels[i]] = static_cast<uint32_t>(i);
   for (BakedLayer& layer : layers) {
-    for (const int step : {1, 2}) smoothing.pass(step, layer);
+    for (const int step : {1, 2}) smoothOnce(atlas, elementAt, step, layer);
   }
 }
 
