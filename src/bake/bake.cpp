@@ -7,6 +7,7 @@
 
 #include "bake/budget.h"
 #include "bake/home_places.h"
+#include "bake/lean.h"
 #include "bake/light_texels.h"
 #include "bake/lit_places.h"
 #include "bake/page.h"
@@ -124,6 +125,12 @@ void spread(const LaidOut& laid, std::vector<BakedLayer>& layers) {
   for (BakedLayer& layer : layers) {
     layer.lux = laid.lit.spread<Vec3>(layer.lux);
     layer.errorLux = laid.lit.spread<float>(layer.errorLux);
+    if (layer.lean.empty()) continue;
+    // Noise of it is that of differences.
+    std::vector<BakedLayer> lean(1);
+    lean[0].lux = laid.lit.spread<Vec3>(layer.lean), lean[0].errorLux = layer.errorLux;
+    smoothLayers(laid.atlas, lean);
+    layer.lean = std::move(lean[0].lux);
   }
   smoothLayers(laid.atlas, layers);
 }
@@ -194,7 +201,9 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   if (stages.cancelled()) return BakedHome{};
   const LaidOut& laid = laidOut.value();
   if (laid.lit.places.empty()) return Error{"nothing of the home can be seen from its rooms or cameras"};
-  const std::vector<SurfaceElement>& places = laid.lit.places;
+  const TurnedPlaces turned = turnedPlaces(laid.scene, laid.atlas, laid.lit);
+  std::vector<SurfaceElement> places = laid.lit.places;
+  places.insert(places.end(), turned.turned.begin(), turned.turned.end());
   Result<LampLayers> lamps = lampLayers(whole, places, settings.layers, stages);
   if (!lamps) return Error{lamps.error()};
   if (stages.cancelled()) return BakedHome{};
@@ -212,7 +221,10 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   const Result<ShownAs> shown = shownAs(whole, stages);
   if (!shown) return Error{shown.error()};
   return stages.run("pack", [&](const Progress&) -> Result<BakedHome> {
-    spread(laid, lamps.value().layers), spread(laid, daylight);
+    for (std::vector<BakedLayer>* layers : {&lamps.value().layers, &daylight}) {
+      for (BakedLayer& layer : *layers) takeLean(turned, laid.lit.places.size(), layer);
+      spread(laid, *layers);
+    }
     const auto pack = [&] {
       return glbOf(laid.scene, laid.atlas, lamps.value(), daylight, shown.value(), settings.glb);
     };
@@ -226,7 +238,7 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
     if (!glb) return Error{glb.error()};
     BakedHome out;
     out.glb = std::move(glb.value()), out.shown = shown.value(), out.settings = settings;
-    out.places = places.size(), out.layers = lamps.value().layers.size() + daylight.size();
+    out.places = laid.lit.places.size(), out.layers = lamps.value().layers.size() + daylight.size();
     out.atlasWidth = laid.atlas.width, out.atlasHeight = laid.atlas.height;
     for (const PlacedChart& chart : laid.atlas.charts) out.triangles += chart.indices.size() / 3;
     return out;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kLongestFootprintM = 0.3f;  // over which a texel's direct light is averaged
 constexpr float kTypical = 0.985f;  // cosine between the normal of a place and the mean of its texel's: 10°
+constexpr float kAlike = 0.9962f;   // between normals and that of their chart: 5°
 
 Vec2 nearestOnEdge(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 e = b - a, d = p - a;
@@ -140,7 +141,7 @@ bool normalsAreAlike(const ChartSurface& surface, const Chart& chart) {
   return std::all_of(chart.triangles.begin(), chart.triangles.end(), [&](uint32_t t) {
     const Vec3 geometric = ChartSurface::geometricNormal(surface.placesOf(surface.cornersOf(t)));
     return std::all_of(std::begin(kCorners), std::end(kCorners),
-                       [&](Vec2 b) { return dot(surface.normalAt(t, geometric, b.x, b.y), chart.normal) >= kTypical; });
+                       [&](Vec2 b) { return dot(surface.normalAt(t, geometric, b.x, b.y), chart.normal) >= kAlike; });
   });
 }
 

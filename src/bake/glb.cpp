@@ -251,7 +251,13 @@ constexpr int kTile = 32;
 
 Json vectorJson(Vec3 v) { return {v.x, v.y, v.z}; }
 
-Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, const Image& light, size_t& lightBytes) {
+Json texelsJson(GlbWriter& glb, const Image& light, size_t& lightBytes) {
+  const LightTexels texels = lightTexels(light, kTile);
+  lightBytes += texels.stream.size();
+  return {{"bufferView", glb.addView(texels.stream)}, {"scale", texels.scale}, {"tiles", texels.tiles}};
+}
+
+Json layerJson(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const BakedLayer& layer, size_t& lightBytes) {
   constexpr const char* kKinds[] = {"lamp", "sun", "sky"};
   Json json = {{"name", layer.name}, {"kind", kKinds[static_cast<size_t>(layer.role)]}, {"on", layer.on}};
   if (layer.role == LayerRole::Lamp) {
@@ -263,11 +269,10 @@ Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, cons
     json["hour"] = layer.hour;
   }
   json["color"] = vectorJson(layer.color);
-  const LightTexels texels = lightTexels(light, kTile);
-  lightBytes += texels.stream.size();
-  json["light"] = {{"bufferView", glb.addView(texels.stream)}, {"scale", texels.scale}, {"tiles", texels.tiles}};
+  json["light"] = texelsJson(glb, onAtlas(atlas, layer.lux), lightBytes);
+  if (!layer.lean.empty()) json["lean"] = texelsJson(glb, onAtlas(atlas, layer.lean), lightBytes);
   if (layer.sun) {
-    const MaskTexels mask = maskTexels(layer.mask, light.width, kTile);
+    const MaskTexels mask = maskTexels(layer.mask, atlas.width, kTile);
     lightBytes += mask.stream.size();
     json["sun"] = {{"direction", vectorJson(layer.sun->toLight)},
                    {"lux", vectorJson(layer.sun->illuminanceLux)},
@@ -323,8 +328,7 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
   Glb out;
   out.textureBytes = textures.value().bytes;
   for (const auto* group : {&lamps.layers, &daylight}) {
-    for (const BakedLayer& layer : *group)
-      layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux), out.lightBytes));
+    for (const BakedLayer& layer : *group) layers.push_back(layerJson(glb, scene, atlas, layer, out.lightBytes));
   }
   const std::vector<Camera> cameras = camerasInside(scene);
   Json extension = {{"version", 3},

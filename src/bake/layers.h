@@ -24,9 +24,12 @@ struct BakedLayer {
   double hour = 0;      // local time, of sun and sky
   std::vector<Vec3> lux{};       // on each element; of a layer with a sun what does not come straight from it
   std::vector<float> errorLux{}; // standard error of its luminance, likewise
-  std::optional<Sun> sun{};      // whose straight light
-  SunMask mask{};                // is here
-  Image panorama{};              // of the sky, equirectangular, cd/m²
+  // Of texels with normal maps: illuminance (luminance, E) and what it has along the chart's axes, as E + U/2, E + V/2,
+  // E; zero on others. Empty: there are none. A place turned to a U + b V + c N has a U + b V + c E.
+  std::vector<Vec3> lean{};
+  std::optional<Sun> sun{};  // whose straight light
+  SunMask mask{};  // is here
+  Image panorama{};  // of the sky, equirectangular, cd/m²
 };
 
 constexpr size_t kTogether = 8;  // places that follow one another get as many samples

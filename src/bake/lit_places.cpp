@@ -180,7 +180,7 @@ LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides&
       for (size_t i = first; i < end; ++i) out.ofElement[i] = {{placeOf[open[i] == kNone ? i : open[i]]}, {1}};
     }
     const Chart& chart = atlas.charts[atlas.chartOf[first]].chart;
-    out.sides.resize(out.places.size(), {chart.instance, chart.back, chart.byVertices});
+    out.sides.resize(out.places.size(), {chart.instance, chart.back, chart.byVertices, atlas.chartOf[first]});
     first = end;
   }
   out.buried = std::move(buried);

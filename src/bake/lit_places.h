@@ -23,6 +23,7 @@ struct LitSide {
   uint32_t instance = 0;
   bool back = false;
   bool shared = false;  // by vertices: the normal is a mean of theirs
+  uint32_t chart = 0;   // of the atlas
 };
 
 struct LitPlaces {

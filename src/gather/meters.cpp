@@ -23,7 +23,7 @@ constexpr double kOfStrongest = 0.03;      // of light on a meter: layers weaker
 SurfacePoint whitePatch(const SurfaceElement& element) {
   SurfacePoint s;
   s.p = element.position;
-  s.ng = s.smooth = s.ns = element.normal;
+  s.ng = s.smooth = element.normal, s.ns = element.facing();
   s.m.baseColor = Vec3(1);
   return s;
 }
@@ -125,7 +125,7 @@ void addLamps(const TracedScene& scene, const LightLayers& layers, const Surface
     for (size_t i = 0; i < lights.lampCount(); ++i) {
       if (lights.lamp(i).extended != extended) continue;
       const LightSample light = lights.sampleLamp(i, position, place.forked(i).next2());
-      const float cosine = light.valid() ? dot(light.wi, element.normal) : 0;
+      const float cosine = light.valid() ? element.cosine(light.wi) : 0;
       if (cosine <= 0) continue;
       shadowRays.push_back(shadowRay(origin, position, light));
       arrives.emplace_back(static_cast<size_t>(layers.ofLamp[i]),
@@ -207,8 +207,10 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
     std::vector<Vec3> means;
     for (size_t i = begin; i < end; ++i)
       lamps(i, false, 0, elements[i].footprintM > 0 ? kSquarePlaces : 1, steady[i - begin]);
-    for (int first = 0, count = std::max(settings.fewestSamples, 2 * batch);
-         count <= std::max(settings.mostSamples, 2 * batch) && !progress.stop(); first = count, count *= 2) {
+    // Whole batches.
+    const int fewest = (std::max(settings.fewestSamples, 2 * batch) + batch - 1) / batch * batch;
+    for (int first = 0, count = fewest; count <= std::max(settings.mostSamples, fewest) && !progress.stop();
+         first = count, count *= 2) {
       for (size_t i = begin; i < end; ++i) {
         for (int at = first; at < count && !progress.stop(); at += batch) {
           means = steady[i - begin];

@@ -16,6 +16,7 @@ constexpr float kFaintCells = 3;  // that such a reflection is taken from
 constexpr float kAlike = 0.5f;     // cosine between normals of a place and of a slot that may have taken its light
 constexpr float kNearCells =
     2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
+constexpr float kLeastAlbedo = 1e-3f;
 constexpr float kGlossy = 0.6f;  // roughness from which on a surface reflects evenly enough
 constexpr float kMetal =
     0.5f;  // metallic from which on a surface reflects evenly: its lobe would find too little too rarely
@@ -34,7 +35,8 @@ uint8_t kindOf(const Material& m) {
   if (!isBlack(m.emission)) kind |= kShines;
   if (letsLightThrough(m)) kind |= kClearKind;
   if (isPolishedMetal(m)) kind |= kMirrorKind;  // no part of the cache
-  if (m.roughness < kGlossy || m.metallicRoughnessTexture.texture >= 0) kind |= kGlossyKind;
+  const bool textured = m.metallicRoughnessTexture.texture >= 0;
+  if ((m.roughness < kGlossy || textured) && (m.metallic <= kMetal || textured) && m.specular > 0) kind |= kGlossyKind;
   return kind;
 }
 
@@ -150,6 +152,7 @@ void RayShader::prefetch(GatherWork& w) const {
     w.places.push_back(p);
     if ((kind_[hit.instance] & ~kGlossyKind) == 0 && !w.paths[i].clear) {
       w.cells.push_back({p, dot(hit.ng, d) < 0 ? hit.ng : -hit.ng, hit.instance});
+      if (kind_[hit.instance] == kGlossyKind) w.surfaces.push_back(hit);
     } else {
       w.surfaces.push_back(hit);
     }
@@ -554,10 +557,10 @@ void RayShader::addCached(const GatherPath& path, const Hit& hit, const CachedLi
        bent = light.sunLux > 0 ? max(-light.even, sunward(path, hit, light.sunLux, light.normal)) : Vec3(0);
   bent *= 1 - points.ofSun;
   if ((kind_[hit.instance] & kGlossyKind) && path.depth < kDeepest && !path.clear && !shinesBesideLamps(light.slot)) {
+    const Vec3 glossy = leaveToGloss(path, hit, light, w);
     // What the sun has in it is spread evenly all the same: its gloss is in `bent`.
-    const Vec3 kept = keptByGloss(path, hit, w);
     const float sun = light.lux > 0 ? std::clamp(light.sunLux / light.lux - points.sun, 0.0f, points.ray()) : 0;
-    bent += light.even * (Vec3(1) - kept) * sun, ofRay *= kept;
+    bent += sunColour_ * (luminance(light.even * glossy) * sun), ofRay *= Vec3(1) - glossy;
   }
   const Vec3 radiance = max(Vec3(0), ofRay + bent);
   const Lobes added = w.add(path.estimate, path.factor, radiance, {});
@@ -570,22 +573,25 @@ void RayShader::addCached(const GatherPath& path, const Hit& hit, const CachedLi
                   LightOrigin::ofLayer(field_.layers.lights->sun));
 }
 
-Vec3 RayShader::keptByGloss(const GatherPath& path, const Hit& hit, GatherWork& w) const {
+Vec3 RayShader::leaveToGloss(const GatherPath& path, const Hit& hit, const CachedLight& light, GatherWork& w) const {
   SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   const Vec3 all = bihemisphericalAlbedo(s.m);
   s.m.roughness = std::max(s.m.roughness, path.spread);
-  if (s.m.roughness >= kGlossy || s.m.metallic > kMetal || isInGlow(s.p, s.ng)) return Vec3(1);
+  if (s.m.roughness >= kGlossy || s.m.metallic > kMetal || isInGlow(s.p, s.ng)) return {};
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const float glossy = luminance(bsdf.specularAlbedo()), sum = glossy + luminance(bsdf.diffuseAlbedo());
-  if (!(glossy > 0)) return Vec3(1);
+  if (!(glossy > 0)) return {};
   const float chance = glossy / sum;
   if (w.samplers[path.estimate].fast1() < chance) {
     GatherVertex v{s,     bsdf,  path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false,
                    false, false, false};
-    v.gloss = 1 / chance, v.sunKnown = !field_.sunLux.empty();
+    v.gloss = 1 / chance, v.sunKnown = lights_.sunCount() == 1;
     scatter_.from(v, w);
   }
-  return min(bsdf.diffuseAlbedo() / max(all, Vec3(1e-6f)), Vec3(1));
+  // The cache's albedo is a mean over a texture; a lobe reflects as much wherever that is dark.
+  const float cached = light.lux > 0 ? kPi * luminance(light.even) / light.lux : 0;
+  const float scale = luminance(all) / std::max(cached, kLeastAlbedo);
+  return min(max(all - bsdf.diffuseAlbedo(), Vec3(0)) / max(all, Vec3(kLeastAlbedo)) * scale, Vec3(1));
 }
 
 RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, const CachedLight& light, Vec3 p,

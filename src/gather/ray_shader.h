@@ -67,9 +67,8 @@ class RayShader final : public SurfaceShader {
     Vec3 normal;        // of what the cache has there
     int64_t slot;       // that holds it; -1: none
   };
-  // Of light that is spread evenly, what the surface's diffuse lobe reflects towards the path; its glossy lobe sends
-  // the path on, as often as its share of the light is.
-  Vec3 keptByGloss(const GatherPath& path, const Hit& hit, GatherWork& w) const;
+  // The share of light spread evenly that is the glossy lobe's; in its place that lobe now and then sends the path on.
+  Vec3 leaveToGloss(const GatherPath& path, const Hit& hit, const CachedLight& light, GatherWork& w) const;
   LeftToPoints leftToPoints(const GatherPath& path, const CachedLight& light, Vec3 p, Vec3 n) const;
   void addCached(const GatherPath& path, const Hit& hit, const CachedLight& light, const LeftToPoints& points,
                  const LightOrigin& origin, GatherWork& w) const;

@@ -77,7 +77,7 @@ void lightBySky(const RayScene& rays, const OpenSky& sky, const SurfaceElement& 
     Sampler sampler(batch.meter, static_cast<uint32_t>(batch.first) + static_cast<uint32_t>(i), seed + kSkySeed);
     const LightSample light = sky.sample(sampler.next2());
     shadows.push_back({origin, light.wi, 0, kInfinity});
-    lux[i] = light.radiance * std::max(0.0f, dot(light.wi, element.normal));
+    lux[i] = light.radiance * element.cosine(light.wi);
   }
   rays.transmittance(shadows, left);
   for (size_t i = 0; i < lux.size(); ++i) lux[i] *= left[i];

@@ -20,6 +20,13 @@ struct SurfaceElement {
   // Edge of the square around it, m, over which what comes straight from small sources is averaged by techniques whose
   // shadows are sharp, so that their edges are where they are; 0: at the point.
   float footprintM = 0;
+  // Unit: light counts by its cosine with this, as a normal map turns a surface; from above the surface alone. Zero:
+  // the normal.
+  Vec3 turned{};
+
+  Vec3 facing() const { return isBlack(turned) ? normal : turned; }
+  // The cosine that light from wi counts by.
+  float cosine(Vec3 wi) const { return dot(wi, normal) > 0 ? std::max(0.0f, dot(wi, facing())) : 0; }
 };
 
 struct MeterReading {
@@ -35,8 +42,9 @@ struct MeterSettings {
   // Whether what comes straight from suns counts; techniques that light surfaces by rays and cones (gather/meters.h)
   // can leave it out.
   bool straightSuns = true;
-  // So many elements that follow one another are sure together, by their mean error: one that has seen nothing rare
-  // takes its error for smaller than it is, and stops where another goes on, so that the mean of many is too low.
+  // So many elements that follow one another, one at least, are sure together, by their mean error beside their mean:
+  // one that has seen nothing rare takes its error for smaller than it is, and stops where another goes on, so that the
+  // mean of many is too low. A dark one among bright ones is less sure.
   size_t together = 1;
 };
 

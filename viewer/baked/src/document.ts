@@ -76,6 +76,7 @@ const layer = v.object({
   kelvin: v.optional(positive),
   position: v.optional(triple),
   light,
+  lean: v.optional(light),
   panorama: v.optional(panorama),
   sun: v.optional(sun),
 });
@@ -190,8 +191,9 @@ function checkTiles({ atlas, layers }: Home): void {
     throw new BadFile("damaged", "atlas: its size is not one of whole tiles");
   const count = (atlas.width / atlas.tile) * (atlas.height / atlas.tile);
   const fine = layers.find(layer => layer.sun)?.sun?.mask.fine;
-  layers.forEach(({ light, sun }, i) => {
-    for (const [what, tiles] of [["light", light.tiles] as const, ["sun.mask", sun?.mask.tiles ?? []] as const])
+  layers.forEach(({ light, lean, sun }, i) => {
+    const listed = { light: light.tiles, lean: lean?.tiles ?? [], "sun.mask": sun?.mask.tiles ?? [] };
+    for (const [what, tiles] of Object.entries(listed))
       if (tiles.length > count || tiles.some(tile => tile >= count))
         throw new BadFile("damaged", `layers.${i}.${what}.tiles: the atlas has ${count}`);
     if (sun && (sun.mask.fine !== fine || fine * atlas.tile > kMostCells))

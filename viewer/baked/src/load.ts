@@ -5,6 +5,7 @@ import { checkDocument, viewBytes, type Gltf } from "./document.js";
 import { readGeometry, type Geometry } from "./geometry.js";
 import { parseGlb } from "./glb.js";
 import { expanded } from "./meshopt.js";
+import type { LightSum } from "./light_sum.js";
 import type { Stage } from "./stage.js";
 import { Sunlight } from "./sunlight.js";
 import type { TextureSource } from "./surfaces.js";
@@ -95,12 +96,13 @@ export async function loadLight(
   const { atlas, layers } = document.extensions.ROOMLIGHT_light_layers;
   const order = layers.map((_, i) => i).sort((a, b) => Number(isOn(b)) - Number(isOn(a)) || a - b);
   const unpack = async (i: number) => {
-    const { name, light, panorama, sun } = layers[i]!;
+    const { name, light, lean, panorama, sun } = layers[i]!;
     const what = `layers.${i} (${name})`;
     const bytes = (view: number, count: number, of: string) => inflate(viewBytes(document, binary, view), count, of);
     const part = (view: number, texels: number, of: string) => bytes(view, 4 * texels, of);
     return {
       light: await part(light.bufferView, atlas.tile ** 2 * light.tiles.length, what),
+      lean: lean && (await part(lean.bufferView, atlas.tile ** 2 * lean.tiles.length, `${what}: lean`)),
       sky: panorama && (await part(panorama.bufferView, panorama.width * panorama.height, `${what}: panorama`)),
       mask: sun && (await bytes(sun.mask.bufferView, Sunlight.bytesOf(sun.mask, atlas.tile), `${what}: sun`)),
     };
@@ -113,12 +115,15 @@ export async function loadLight(
   };
   let next = start(0);
   for (const [done, i] of order.entries()) {
-    const { light, panorama } = layers[i]!;
+    const { light, lean, panorama } = layers[i]!;
     const planes = (await next)!;
     next = start(done + 1);
-    const texels = stage.light.texelsFor(light.tiles.length);
-    if (light.tiles.length > 0)
-      stage.light.add(i, light.tiles, unpackTexels(planes.light, atlas.tile, atlas.tile, texels), light.scale);
+    const add = (sum: LightSum, { tiles, scale }: typeof light, bytes: Uint8Array) => {
+      if (tiles.length === 0) return;
+      sum.add(i, tiles, unpackTexels(bytes, atlas.tile, atlas.tile, sum.texelsFor(tiles.length)), scale);
+    };
+    add(stage.light, light, planes.light);
+    if (stage.lean && lean && planes.lean) add(stage.lean, lean, planes.lean);
     if (panorama && planes.sky) {
       const sky = unpackTexels(planes.sky, panorama.width, panorama.height);
       stage.sky.add(i, sky, panorama.width, panorama.scale);

@@ -10,7 +10,7 @@ export const kReflectionGlsl = (unit: string): string => `
   uniform vec3 uProbeAt;
   uniform float uPicture; // which of those that are averaged; below zero: it stands alone
   const float kSmooth = 0.12, kFaint = 0.08, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0, kNearM = 1.0;
-  const float kWideSteps = 14.0, kHalfTexel = 0.011;
+  const float kWideSteps = 14.0, kHalfTexel = 1.41421 / exp2(CUBEUV_MAX_MIP);
   const int kRays = 6, kMostRays = 12, kMostSteps = 24, kHalvings = 5;
 
   // A ray as the probe sees it: it comes nearest to the probe at foot, and sweeps angles from there.
@@ -26,11 +26,12 @@ export const kReflectionGlsl = (unit: string): string => `
     float seen; // metres from the probe to what it sees there
   };
   Step stepAt(Ray ray, float angle) {
-    vec3 at = ray.height * ray.foot + ray.height * tan(angle) * ray.direction;
+    vec3 at = ray.height * (ray.foot + sin(angle) / max(cos(angle), 1e-5) * ray.direction);
     float range = max(length(at), 1e-3);
     return Step(angle, at / range, range, textureLod(uAround, at, 0.0).a);
   }
-  // What the distance of a surface may be off by in a texel of the probe: the more, the flatter the probe looks at it.
+  // What the distance of the surface that a ray starts from may be off by in a texel of the probe: the more, the
+  // flatter the probe looks at it. side: its normal.
   float slackM(Step s, vec3 side) { return 0.03 + kHalfTexel * s.range / max(abs(dot(s.towards, side)), 0.05); }
   bool hides(Step s, float slack) { return s.seen < s.range - slack; }
 

@@ -29,10 +29,17 @@ const kMostBiasEv = 2;
 const kPictures = 8; // that are averaged where nothing moves
 const kRestMs = 150; // after the last change, so that dials answer at once
 
+// What a tint leaves of light as a whole.
+const grey = ([r, g, b]: Vec3): Vec3 => {
+  const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  return [luminance, luminance, luminance];
+};
+
 export class Stage {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(60, 1, kNearM, kFarM);
   readonly light: LightSum;
+  readonly lean: LightSum | null; // where the light comes from, on what has normal maps
   readonly sunlight: Sunlight;
   readonly sky: Sky;
   readonly display: Display;
@@ -72,6 +79,7 @@ export class Stage {
     renderer.info.autoReset = false;
     const { width, height, tile } = this.home.atlas;
     this.light = new LightSum(renderer, width, height, tile);
+    this.lean = this.home.layers.some(layer => layer.lean) ? new LightSum(renderer, width, height, tile) : null;
     this.sunlight = new Sunlight(this.home);
     this.display = new Display(renderer, this.home, 4);
     this.probe = new Probe(renderer, this.scene, this.display.uniforms, kProbePx);
@@ -80,11 +88,13 @@ export class Stage {
       ...this.probe.uniforms,
       ...this.sunlight.uniforms,
       uLight: { value: this.light.target.texture },
+      ...(this.lean ? { uLean: { value: this.lean.target.texture } } : {}),
       ...(packed ? { uPacked: { value: packed } } : {}),
     };
     this.surfaces = new Surfaces(document, geometry, uniforms, textures, {
       ...kProbeDefines(kProbePx),
       ...this.sunlight.defines,
+      ...(this.lean ? { LEAN: "" } : {}),
     });
     this.scene.add(this.surfaces.group);
     this.sky = new Sky(renderer, kPanoramaWidth, kPanoramaWidth / 2, kFinishGlsl, this.display.uniforms);
@@ -102,6 +112,7 @@ export class Stage {
     const factors = this.factors ?? [];
     if (!factors[layer]?.some(c => c > 0)) return;
     this.light.update(factors, layer);
+    this.lean?.update(factors.map(grey), layer);
     this.sky.update(factors, layer);
     this.probe.touch();
     this.scaleDue = this.meterDue = true;
@@ -112,6 +123,7 @@ export class Stage {
     if (sameFactors(this.factors, factors)) return;
     this.factors = factors;
     this.light.update(factors);
+    this.lean?.update(factors.map(grey));
     this.sunlight.update(factors);
     this.sky.update(factors);
     this.surfaces.setFactors(factors);

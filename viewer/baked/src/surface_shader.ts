@@ -90,6 +90,9 @@ export const kSurfaceFragment = `
   #define texture2D texture
   #define texture2DGradEXT textureGrad
   uniform sampler2D uLight;
+  #ifdef LEAN
+    uniform sampler2D uLean;
+  #endif
   uniform vec3 cameraPosition;
   uniform bool uReflect; // false where the probe itself is made
   uniform float uNormalScale;
@@ -128,7 +131,7 @@ export const kSurfaceFragment = `
   #define ENVMAP_TYPE_CUBE_UV
   #include <cube_uv_reflection_fragment>
 
-  const float kPi = 3.14159265;
+  const float kPi = 3.14159265, kMostTowards = 4.0;
   float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
   // Directional albedo of GGX: f0 * x + f90 * y (fit of Karis 2014, "Physically based shading on mobile").
@@ -153,9 +156,30 @@ export const kSurfaceFragment = `
     vec3 reflected(vec3 n, vec3 v, float roughness, float weight, vec3 lux) { return lux / kPi; }
   #endif
 
-  // How much more light arrives from where a normal map turns a place to. Layers do not tell; the probe does for the
-  // room, with the lamps as they are dimmed.
+  #ifdef HAS_NORMAL
+    // Unit axes along which coordinates grow, from how place and coordinates change over the screen; zero where these
+    // do not.
+    mat2x3 axesOf(vec2 coordinates, vec3 n) {
+      vec3 px = dFdx(vPosition), py = dFdy(vPosition);
+      vec2 tx = dFdx(coordinates), ty = dFdy(coordinates);
+      vec3 across = cross(py, n), along = cross(n, px);
+      vec3 t = across * tx.x + along * ty.x, b = across * tx.y + along * ty.y;
+      return mat2x3(t * inversesqrt(max(dot(t, t), 1e-30)), b * inversesqrt(max(dot(b, b), 1e-30)));
+    }
+  #endif
+
+  // How much more light arrives from where a normal map turns a place to. Layers tell it on charts; elsewhere the probe
+  // does, for the room as a whole, with the lamps as they are dimmed.
   float towards(vec3 n) {
+    #if defined(HAS_NORMAL) && defined(LEAN)
+      vec3 side = normalize(vNormal);
+      mat2x3 axes = axesOf(vLightUv, side);
+      vec3 lean = texture(uLean, vLightUv).rgb;
+      if (vLit == 0 && lean.b > 0.0) {
+        vec2 along = 2.0 * (lean.rg / lean.b - 1.0);
+        return clamp(dot(n, side) + dot(along, n * axes), 0.0, kMostTowards);
+      }
+    #endif
     #if defined(HAS_NORMAL) && defined(PROBE)
       if (!uReflect) return 1.0;
       float there = luminance(textureCubeUV(uProbe, n, 1.0).rgb);
@@ -169,18 +193,8 @@ export const kSurfaceFragment = `
   vec3 shadingNormal() {
     vec3 n = normalize(vNormal);
     #ifdef HAS_NORMAL
-      // The frame of the texture, from how place and texture change over the screen.
-      vec3 px = dFdx(vPosition), py = dFdy(vPosition);
-      vec2 tx = dFdx(vUv), ty = dFdy(vUv);
-      vec3 across = cross(py, n), along = cross(n, px);
-      vec3 t = across * tx.x + along * ty.x, b = across * tx.y + along * ty.y;
-      float size = max(dot(t, t), dot(b, b));
-      if (size > 0.0) {
-        vec3 m = texture(uNormal, vUv).xyz * 2.0 - 1.0;
-        m.xy *= uNormalScale;
-        float scale = inversesqrt(size);
-        n = normalize(m.x * t * scale - m.y * b * scale + m.z * n);
-      }
+      vec3 m = texture(uNormal, vUv).xyz * 2.0 - 1.0;
+      n = normalize(axesOf(vUv, n) * (vec2(m.x, -m.y) * uNormalScale) + m.z * n);
     #endif
     return n;
   }

@@ -151,6 +151,23 @@ test("a normal map turned to the bright wall has more light", { skip }, async ()
   assert.ok(to > even + 0.03 && from < even - 0.008, `${from} < ${even} < ${to}`);
 });
 
+test("a normal map turned to where light comes from has more of it", { skip }, async () => {
+  const turns: readonly [Vec3, readonly [number, number], number][] = [
+    [[0.6, 0, 0.8], [1, 0], 0.8 + 0.6],
+    [[0.6, 0, 0.8], [-0.5, 0], 0.8 - 0.3],
+    [[0, 0.6, 0.8], [0, 1], 0.8 - 0.6], // towards z; light comes from the other side
+    [[0, -0.6, 0.8], [0, 0.5], 0.8 + 0.3],
+  ];
+  for (const [i, [floorNormal, floorLean, times]] of turns.entries()) {
+    const link = writePage(`lean${i}`, bakedHome({ floorNormal, floorLean }));
+    const visit = await opened(`${link}#eye=2,1.6,4,0,-60,60&ev=${kEv100}`);
+    const [red] = await visit.color(320, 300);
+    const [expected] = shown(sum([kLampLux[0]!, times]));
+    assert.ok(Math.abs(red - expected) < 0.01, `${floorNormal}, ${floorLean}: ${red}, ${expected}`);
+    await visit.end();
+  }
+});
+
 test("a patch of sun ends sharply, and the meter tells it", { skip }, async () => {
   const link = writePage("sun-patch", bakedHome({ sunPatch: true, lamps: false }));
   // The middle of the floor from above, x to the right.

@@ -38,6 +38,7 @@ interface Options {
   readonly display?: { readonly ev100: number; readonly tone: string; readonly whiteGains: Vec3 };
   readonly sunPatch?: boolean; // suns also shine straight onto half of the floor
   readonly floorNormal?: Vec3; // of a normal map: x along x, y along z
+  readonly floorLean?: readonly [number, number]; // of lamps' light: along x and against z, over illuminance
 }
 
 // Six faces seen from inside, each with one tile of the atlas.
@@ -193,6 +194,7 @@ export function bakedHome(options: Options = {}): Uint8Array {
     brightWall = false,
     sunPatch = false,
     floorNormal,
+    floorLean,
   } = options;
   const binary = new Binary();
   const { positions, normals, lightUvs, uvs, index } = box(shelf);
@@ -207,6 +209,14 @@ export function bakedHome(options: Options = {}): Uint8Array {
     scale: kScale,
     tiles,
   });
+  const lean = ([r, g, b]: Vec3) => {
+    if (!floorLean) return {};
+    const even = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    const [u, v] = floorLean;
+    const triple: Vec3 = [even * (1 + u / 2), even * (1 + v / 2), even];
+    return { lean: { bufferView: binary.add(texels(triple, [kTile, kTile, 1], kScale)), scale: kScale, tiles: [0] } };
+  };
+  const lamp = (lux: Vec3) => ({ kind: "lamp", room: "Kitchen", light: light(lux), ...lean(lux) });
   const sun = {
     sun: {
       direction: [0, 1, 0],
@@ -234,8 +244,8 @@ export function bakedHome(options: Options = {}): Uint8Array {
   const layers = [
     ...(lamps
       ? [
-          { name: "Pendant", kind: "lamp", room: "Kitchen", on: true, kelvin: 4000, light: light(kLampLux[0]!) },
-          { name: "Strip", kind: "lamp", room: "Kitchen", on: false, kelvin: 2700, light: light(kLampLux[1]!) },
+          { name: "Pendant", on: true, kelvin: 4000, ...lamp(kLampLux[0]!) },
+          { name: "Strip", on: false, kelvin: 2700, ...lamp(kLampLux[1]!) },
         ]
       : []),
     ...kHours.flatMap((hour, i) => [
