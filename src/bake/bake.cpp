@@ -188,7 +188,7 @@ Result<BakeSettings> bakeSettings(const std::string& quality) {
   if (quality == "draft")
     s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.002f, s.layers.meters.tolerance = 0.4;
   if (quality == "best")
-    s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0, true, kTogether};
+    s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0, true, kTogether}, s.lean = true;
   return s;
 }
 
@@ -201,7 +201,7 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   if (stages.cancelled()) return BakedHome{};
   const LaidOut& laid = laidOut.value();
   if (laid.lit.places.empty()) return Error{"nothing of the home can be seen from its rooms or cameras"};
-  const TurnedPlaces turned = turnedPlaces(laid.scene, laid.atlas, laid.lit);
+  const TurnedPlaces turned = settings.lean ? turnedPlaces(laid.scene, laid.atlas, laid.lit) : TurnedPlaces();
   std::vector<SurfaceElement> places = laid.lit.places;
   places.insert(places.end(), turned.turned.begin(), turned.turned.end());
   Result<LampLayers> lamps = lampLayers(whole, places, settings.layers, stages);
