@@ -1,7 +1,5 @@
 #include "bake/bake.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -126,7 +124,7 @@ void spread(const LaidOut& laid, std::vector<BakedLayer>& layers) {
     layer.lux = laid.lit.spread<Vec3>(layer.lux);
     layer.errorLux = laid.lit.spread<float>(layer.errorLux);
     if (layer.lean.empty()) continue;
-    // Noise of it is that of differences.
+    // Of the same noise as the light, but of its own light and dark.
     std::vector<BakedLayer> lean(1);
     lean[0].lux = laid.lit.spread<Vec3>(layer.lean), lean[0].errorLux = layer.errorLux;
     smoothLayers(laid.atlas, lean);
