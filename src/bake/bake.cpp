@@ -123,12 +123,6 @@ void spread(const LaidOut& laid, std::vector<BakedLayer>& layers) {
   for (BakedLayer& layer : layers) {
     layer.lux = laid.lit.spread<Vec3>(layer.lux);
     layer.errorLux = laid.lit.spread<float>(layer.errorLux);
-    if (layer.lean.empty()) continue;
-    // Of the same noise as the light, but of its own light and dark.
-    std::vector<BakedLayer> lean(1);
-    lean[0].lux = laid.lit.spread<Vec3>(layer.lean), lean[0].errorLux = layer.errorLux;
-    smoothLayers(laid.atlas, lean);
-    layer.lean = std::move(lean[0].lux);
   }
   smoothLayers(laid.atlas, layers);
 }
@@ -186,7 +180,7 @@ Result<BakeSettings> bakeSettings(const std::string& quality) {
   if (quality == "draft")
     s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.002f, s.layers.meters.tolerance = 0.4;
   if (quality == "best")
-    s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0, true, kTogether}, s.lean = true;
+    s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0, true, kTogether};
   return s;
 }
 
@@ -199,7 +193,7 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   if (stages.cancelled()) return BakedHome{};
   const LaidOut& laid = laidOut.value();
   if (laid.lit.places.empty()) return Error{"nothing of the home can be seen from its rooms or cameras"};
-  const TurnedPlaces turned = settings.lean ? turnedPlaces(laid.scene, laid.atlas, laid.lit) : TurnedPlaces();
+  const TurnedPlaces turned = turnedPlaces(laid.scene, laid.atlas, laid.lit);
   std::vector<SurfaceElement> places = laid.lit.places;
   places.insert(places.end(), turned.turned.begin(), turned.turned.end());
   Result<LampLayers> lamps = lampLayers(whole, places, settings.layers, stages);
@@ -220,7 +214,7 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   if (!shown) return Error{shown.error()};
   return stages.run("pack", [&](const Progress&) -> Result<BakedHome> {
     for (std::vector<BakedLayer>* layers : {&lamps.value().layers, &daylight}) {
-      for (BakedLayer& layer : *layers) takeLean(turned, laid.lit.places.size(), layer);
+      for (BakedLayer& layer : *layers) takeLean(turned, laid.lit, layer);
       spread(laid, *layers);
     }
     const auto pack = [&] {

@@ -19,7 +19,6 @@ struct BakeSettings {
   GlbSettings glb;
   float simplifyM = 0.001f;     // how far surfaces may be from where they are
   float placesApartM = 0.08f;   // where vertices share light
-  bool lean = false;  // where light comes from is told, on charts with normal maps
   size_t seenRays = size_t{1} << 21, raysAnEye = 4096;  // at least, that tell what can be seen
 };
 

@@ -251,8 +251,10 @@ constexpr int kTile = 32;
 
 Json vectorJson(Vec3 v) { return {v.x, v.y, v.z}; }
 
-Json texelsJson(GlbWriter& glb, const Image& light, size_t& lightBytes) {
-  const LightTexels texels = lightTexels(light, kTile);
+constexpr int kSlackOfLean = 3;  // of 511: 1 % of what a bump of 20° changes
+
+Json texelsJson(GlbWriter& glb, const Image& light, int slack, size_t& lightBytes) {
+  const LightTexels texels = lightTexels(light, kTile, slack);
   lightBytes += texels.stream.size();
   return {{"bufferView", glb.addView(texels.stream)}, {"scale", texels.scale}, {"tiles", texels.tiles}};
 }
@@ -269,8 +271,8 @@ Json layerJson(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const Bak
     json["hour"] = layer.hour;
   }
   json["color"] = vectorJson(layer.color);
-  json["light"] = texelsJson(glb, onAtlas(atlas, layer.lux), lightBytes);
-  if (!layer.lean.empty()) json["lean"] = texelsJson(glb, onAtlas(atlas, layer.lean), lightBytes);
+  json["light"] = texelsJson(glb, onAtlas(atlas, layer.lux), kSlack, lightBytes);
+  if (!layer.lean.empty()) json["lean"] = texelsJson(glb, onAtlas(atlas, layer.lean), kSlackOfLean, lightBytes);
   if (layer.sun) {
     const MaskTexels mask = maskTexels(layer.mask, atlas.width, kTile);
     lightBytes += mask.stream.size();
@@ -331,7 +333,7 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
     for (const BakedLayer& layer : *group) layers.push_back(layerJson(glb, scene, atlas, layer, out.lightBytes));
   }
   const std::vector<Camera> cameras = camerasInside(scene);
-  Json extension = {{"version", 3},
+  Json extension = {{"version", 4},
                     {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
                     {"layers", layers},
                     {"rooms", roomsJson(scene)},

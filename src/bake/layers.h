@@ -13,6 +13,8 @@
 
 namespace roomlight::bake {
 
+constexpr float kLeanOfOne = 511.0f / 512;  // which texels store most exactly
+
 enum class LayerRole : uint8_t { Lamp, Sun, Sky };
 
 struct BakedLayer {
@@ -24,8 +26,8 @@ struct BakedLayer {
   double hour = 0;      // local time, of sun and sky
   std::vector<Vec3> lux{};       // on each element; of a layer with a sun what does not come straight from it
   std::vector<float> errorLux{}; // standard error of its luminance, likewise
-  // Of texels with normal maps: illuminance (luminance, E) and what it has along the chart's axes, as E + U/2, E + V/2,
-  // E; zero on others. Empty: there are none. A place turned to a U + b V + c N has a U + b V + c E.
+  // On each element with a normal map: how light leans along the chart's axes, U / (4 E) + 1/2, V / (4 E) + 1/2, 1, all
+  // times kLeanOfOne; zero on others. Empty: there are none. A place turned to a U + b V + c N has a U + b V + c E.
   std::vector<Vec3> lean{};
   std::optional<Sun> sun{};  // whose straight light
   SunMask mask{};  // is here

@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kMantissaBits = 9, kBias = 15, kMostExponent = 31;
 constexpr float kLargest = 65408;  // (2^9 - 1) / 2^9 * 2^16
-constexpr int kSlack = 1;  // of a mantissa: .4 % of the largest channel
 constexpr float kDarkLux = 0.01f;  // a tile that is nowhere brighter is left out
 
 float clipped(float v) { return v > 0 ? std::min(v, kLargest) : 0; }
@@ -55,7 +54,7 @@ Vec3 fromRgb9e5(uint32_t texel) {
          scale;
 }
 
-LightTexels lightTexels(const Image& light, int tile) {
+LightTexels lightTexels(const Image& light, int tile, int slack) {
   LightTexels out;
   out.scale = scaleOf(light);
   std::vector<uint32_t> texels;
@@ -68,7 +67,7 @@ LightTexels lightTexels(const Image& light, int tile) {
     out.tiles.push_back(static_cast<uint32_t>(t));
     addTile(light, tile, static_cast<uint32_t>(t), out.scale, texels);
   }
-  out.stream = deflated(predictedPlanes(std::move(texels), tile, tile, kSlack));
+  out.stream = deflated(predictedPlanes(std::move(texels), tile, tile, slack));
   return out;
 }
 

@@ -23,8 +23,10 @@ struct LightTexels {
   std::string stream;           // a zlib stream
 };
 
-// Of a picture of light whose edges are multiples of `tile`.
-LightTexels lightTexels(const Image& light, int tile);
+constexpr int kSlack = 1;  // of a mantissa: .4 % of the largest channel
+
+// Of a picture of light whose edges are multiples of `tile`. Mantissas are off by at most `slack`.
+LightTexels lightTexels(const Image& light, int tile, int slack = kSlack);
 // Of a picture as one tile of any size.
 LightTexels lightTexels(const Image& picture);
 

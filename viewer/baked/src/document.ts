@@ -168,7 +168,7 @@ export type Camera = Home["cameras"][number];
 export type ToneName = Home["display"]["tone"];
 
 const kMostCells = 1024; // along the edge of a tile
-const kVersion = 3; // that bake writes
+const kVersion = 4; // that bake writes
 const versionOnly = v.object({ extensions: v.object({ ROOMLIGHT_light_layers: v.object({ version: whole }) }) });
 
 export function checkDocument(json: unknown): Gltf {

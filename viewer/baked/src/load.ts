@@ -5,11 +5,10 @@ import { checkDocument, viewBytes, type Gltf } from "./document.js";
 import { readGeometry, type Geometry } from "./geometry.js";
 import { parseGlb } from "./glb.js";
 import { expanded } from "./meshopt.js";
-import type { LightSum } from "./light_sum.js";
 import type { Stage } from "./stage.js";
 import { Sunlight } from "./sunlight.js";
 import type { TextureSource } from "./surfaces.js";
-import { inflate, unpackTexels } from "./texels.js";
+import { inflate, timesLuminance, unpackTexels } from "./texels.js";
 
 export interface LoadedHome {
   readonly document: Gltf;
@@ -118,12 +117,15 @@ export async function loadLight(
     const { light, lean, panorama } = layers[i]!;
     const planes = (await next)!;
     next = start(done + 1);
-    const add = (sum: LightSum, { tiles, scale }: typeof light, bytes: Uint8Array) => {
-      if (tiles.length === 0) return;
-      sum.add(i, tiles, unpackTexels(bytes, atlas.tile, atlas.tile, sum.texelsFor(tiles.length)), scale);
-    };
-    add(stage.light, light, planes.light);
-    if (stage.lean && lean && planes.lean) add(stage.lean, lean, planes.lean);
+    const texelsOf = ({ tiles }: typeof light, bytes: Uint8Array) =>
+      unpackTexels(bytes, atlas.tile, atlas.tile, stage.light.texelsFor(tiles.length));
+    const texels = texelsOf(light, planes.light);
+    if (stage.lean && lean && planes.lean) {
+      const leans = texelsOf(lean, planes.lean);
+      timesLuminance(leans, lean.tiles, texels, light.tiles, atlas.tile ** 2);
+      stage.lean.add(i, lean.tiles, leans, light.scale);
+    }
+    stage.light.add(i, light.tiles, texels, light.scale);
     if (panorama && planes.sky) {
       const sky = unpackTexels(planes.sky, panorama.width, panorama.height);
       stage.sky.add(i, sky, panorama.width, panorama.scale);

@@ -176,7 +176,7 @@ export const kSurfaceFragment = `
       mat2x3 axes = axesOf(vLightUv, side);
       vec3 lean = texture(uLean, vLightUv).rgb;
       if (vLit == 0 && lean.b > 0.0) {
-        vec2 along = 2.0 * (lean.rg / lean.b - 1.0);
+        vec2 along = 4.0 * lean.rg / lean.b - 2.0;
         return clamp(dot(n, side) + dot(along, n * axes), 0.0, kMostTowards);
       }
     #endif

@@ -66,6 +66,34 @@ export function unpackTexels(
   return texels;
 }
 
+// Shares of light in tiles, made light: each channel as a part of blue, times the luminance of `light` in the same place.
+// Tiles where there is no light get none.
+export function timesLuminance(
+  shares: Uint32Array,
+  tiles: readonly number[],
+  light: Uint32Array,
+  lightTiles: readonly number[],
+  texels: number, // of a tile
+): void {
+  const placeOf = new Map(lightTiles.map((tile, place) => [tile, place * texels]));
+  tiles.forEach((tile, place) => {
+    const lit = placeOf.get(tile);
+    for (let i = 0; i < texels; ++i) {
+      const share = shares[place * texels + i]!;
+      const of = (share >>> 18) & 511;
+      const from = lit === undefined ? 0 : light[lit + i]!;
+      const luminance = 0.2126 * (from & 511) + 0.7152 * ((from >>> 9) & 511) + 0.0722 * ((from >>> 18) & 511);
+      const exponent = from >>> 27;
+      // Twice as much would still fit.
+      const part = (channel: number) => Math.min(Math.round((luminance * channel) / of / 2), kMost);
+      shares[place * texels + i] =
+        of === 0 || luminance === 0 || exponent === 31
+          ? 0
+          : (part(share & 511) | (part((share >>> 9) & 511) << 9) | (part(of) << 18) | ((exponent + 1) << 27)) >>> 0;
+    }
+  });
+}
+
 export function decodeTexel(texel: number): Vec3 {
   const unit = 2 ** ((texel >>> 27) - 24);
   return [(texel & 511) * unit, ((texel >>> 9) & 511) * unit, ((texel >>> 18) & 511) * unit];

@@ -209,14 +209,13 @@ export function bakedHome(options: Options = {}): Uint8Array {
     scale: kScale,
     tiles,
   });
-  const lean = ([r, g, b]: Vec3) => {
+  const lean = () => {
     if (!floorLean) return {};
-    const even = 0.2126 * r + 0.7152 * g + 0.0722 * b;
     const [u, v] = floorLean;
-    const triple: Vec3 = [even * (1 + u / 2), even * (1 + v / 2), even];
-    return { lean: { bufferView: binary.add(texels(triple, [kTile, kTile, 1], kScale)), scale: kScale, tiles: [0] } };
+    const share: Vec3 = [0.5 + u / 4, 0.5 + v / 4, 1];
+    return { lean: { bufferView: binary.add(texels(share, [kTile, kTile, 1], 1)), scale: 1, tiles: [0] } };
   };
-  const lamp = (lux: Vec3) => ({ kind: "lamp", room: "Kitchen", light: light(lux), ...lean(lux) });
+  const lamp = (lux: Vec3) => ({ kind: "lamp", room: "Kitchen", light: light(lux), ...lean() });
   const sun = {
     sun: {
       direction: [0, 1, 0],
@@ -305,7 +304,7 @@ export function bakedHome(options: Options = {}): Uint8Array {
     extensionsUsed: ["ROOMLIGHT_light_layers", "KHR_materials_specular"],
     extensions: {
       ROOMLIGHT_light_layers: {
-        version: 3,
+        version: 4,
         atlas: kAtlas,
         layers,
         hour: 12,

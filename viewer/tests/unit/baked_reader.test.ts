@@ -6,12 +6,12 @@ import { checkDocument, viewBytes } from "../../baked/src/document.js";
 import { readGeometry } from "../../baked/src/geometry.js";
 import { parseGlb } from "../../baked/src/glb.js";
 import { bytesOf } from "../../baked/src/page_text.js";
-import { decodeTexel, encodeTexel, inflate, unpackTexels } from "../../baked/src/texels.js";
+import { decodeTexel, encodeTexel, inflate, timesLuminance, unpackTexels } from "../../baked/src/texels.js";
 import type { Vec3 } from "../../src/vector.js";
 import { bakedHome, glb, kLampLux } from "../double/baked_home.js";
 import { packTexels } from "../double/pack_texels.js";
 import { textOf } from "../double/page_text.js";
-import { nearAll } from "./near.js";
+import { near, nearAll } from "./near.js";
 
 const isFault = (fault: string) => (error: unknown) => error instanceof BadFile && error.fault === fault;
 const read = (bytes: Uint8Array) => {
@@ -129,7 +129,7 @@ test("files that are cut, damaged, foreign or newer say so", () => {
   assert.throws(() => read(glb({ asset: {} }, new Uint8Array())), isFault("foreign"));
   type Json = { extensions: { ROOMLIGHT_light_layers: { version: number; layers: { light: { tiles: number[] } }[] } } };
   const edit = (change: (json: Json) => void) => changed(json => change(json as unknown as Json));
-  assert.throws(() => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.version = 4))), isFault("newer"));
+  assert.throws(() => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.version = 5))), isFault("newer"));
   assert.throws(
     () => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.layers[0]!.light.tiles = [8]))),
     error => {
@@ -158,6 +158,24 @@ test("indices and views beyond what is there are faults", () => {
     edit(j => (j.accessors[5]!.count = 300)),
     isFault("damaged"),
   );
+});
+
+test("shares of light become light in the tiles that have some", () => {
+  const share = encodeTexel([0.75, 0.3, 511 / 512]);
+  const light: Vec3[] = [
+    [300, 200, 100],
+    [0.5, 0.75, 0.1],
+  ];
+  const shares = Uint32Array.of(share, share, share, 0);
+  timesLuminance(shares, [2, 5], Uint32Array.from([...light, ...light].map(encodeTexel)), [1, 2], 2);
+  light.forEach(([r, g, b], i) => {
+    const even = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    const [u, v, whole] = decodeTexel(shares[i]!);
+    near(whole / even, 1, 0.01);
+    near(u / whole, (0.75 * 512) / 511, 0.01);
+    near(v / whole, (0.3 * 512) / 511, 0.01);
+  });
+  assert.deepEqual([...shares.slice(2)], [0, 0]); // tile 5 has no light
 });
 
 test("text of a page gives its bytes, and what is none is a fault", () => {
