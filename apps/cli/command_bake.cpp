@@ -157,15 +157,34 @@ Result<std::vector<bake::DaylightHour>> hoursOf(const BakeOptions& o, const Bake
   return out;
 }
 
-// Into a folder: the home's file is named by what is in it, so that browsers may keep it for ever.
+// Which file of a home a page written before names; empty: none.
+std::string fileOfPage(const std::filesystem::path& index) {
+  const Result<std::string> page = readTextFile(index);
+  if (!page) return {};
+  const std::string_view text = page.value();
+  constexpr std::string_view kLink = "<link id=\"roomlight-home\" href=\"";
+  const size_t at = text.find(kLink);
+  if (at == text.npos) return {};
+  const std::string_view rest = text.substr(at + kLink.size());
+  const std::string name(rest.substr(0, rest.find('"')));
+  return name.starts_with("home-") && name.ends_with(".glb") && name.find('/') == name.npos ? name : std::string();
+}
+
+// Into a folder: the home's file is named by what is in it, so that browsers may keep it for ever. That of a
+// page before goes.
 Status writeFolder(const BakeOptions& o, const BakePlan& plan, const std::string& glb) {
   Hash hash;
   hash.bytes(glb);
   const std::string file = fmt::format("home-{}.glb", hash.text());
   const Result<std::string> page = bake::pageWithLink(plan.page, titleOf(o), file);
   if (!page) return Error{page.error()};
-  if (const Status s = writeWhole(std::filesystem::path(o.output) / file, glb); !s) return s;
-  return writeWhole(std::filesystem::path(o.output) / "index.html", page.value());
+  const std::filesystem::path folder = o.output, index = folder / "index.html";
+  const std::string before = std::filesystem::exists(index) ? fileOfPage(index) : "";
+  if (const Status s = writeWhole(folder / file, glb); !s) return s;
+  if (const Status s = writeWhole(index, page.value()); !s) return s;
+  std::error_code left;
+  if (!before.empty() && before != file) std::filesystem::remove(folder / before, left);
+  return Ok{};
 }
 
 Status writeBaked(const BakeOptions& o, const BakePlan& plan, const std::string& glb) {

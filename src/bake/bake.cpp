@@ -161,6 +161,7 @@ Result<ShownAs> shownAs(const Scene& scene, Stages& stages) {
   shown.tone = display.tone;
   shown.ev100 = heldEv100(ev100Of(display, picture.value().image), picture.value().image);
   shown.whiteGains = whiteOf(display, picture.value().lightColour).gains;
+  shown.whites = shownWhites(display);
   return shown;
 }
 

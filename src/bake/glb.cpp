@@ -295,6 +295,12 @@ Json layerJson(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const Bak
   return json;
 }
 
+Json whitesJson(const std::vector<ShownWhite>& whites) {
+  Json out = Json::array();
+  for (const ShownWhite& w : whites) out.push_back({{"light", vectorJson(w.light)}, {"shown", vectorJson(w.shown)}});
+  return out;
+}
+
 Json roomsJson(const Scene& scene) {
   Json rooms = Json::array();
   for (const Room& room : scene.rooms) {
@@ -344,7 +350,8 @@ Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamp
                       {"tone", toneCurveName(shown.tone.curve)},
                       {"contrast", shown.tone.contrast},
                       {"saturation", shown.tone.saturation},
-                      {"whiteGains", vectorJson(shown.whiteGains)}}}};
+                      {"whiteGains", vectorJson(shown.whiteGains)},
+                      {"whites", whitesJson(shown.whites)}}}};
   if (!daylight.empty()) extension["hour"] = daylight.front().hour;
   if (settings.lightMap) extension["lightMap"] = textures.value().lightMap;
   glb.json["extensions"]["ROOMLIGHT_light_layers"] = extension;

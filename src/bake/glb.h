@@ -7,13 +7,15 @@
 #include "bake/atlas.h"
 #include "bake/layers.h"
 #include "base/tone.h"
+#include "look/display.h"
 
 namespace roomlight::bake {
 
 struct GlbSettings {
   int mostTexturePixels = 1024;  // an edge; larger textures are scaled down
   float textureQuality = 80;     // of WebP
-  bool compressed = false;       // geometry by EXT_meshopt_compression, which not every program reads
+  // Geometry by EXT_meshopt_compression, textures as WebP, which not every program reads; else as JPEG and PNG.
+  bool compressed = false;
   bool lightMap = false;         // light as it is at first in a texture too, for programs that know no layers
 };
 
@@ -22,6 +24,7 @@ struct ShownAs {
   Tone tone;
   float ev100 = 8;
   Vec3 whiteGains{1, 1, 1};
+  std::vector<ShownWhite> whites = {};  // how other light would be balanced
 };
 
 struct Glb {

@@ -10,6 +10,8 @@ namespace roomlight::bake {
 namespace {
 
 constexpr float kNormalQuality = 92;  // of WebP
+constexpr int kJpegQuality = 90;
+constexpr const char *kWebp = "image/webp", *kJpeg = "image/jpeg", *kPng = "image/png";
 constexpr int kClamp = 33071, kMirror = 33648, kRepeat = 10497, kLinear = 9729;  // as glTF numbers them
 
 int wrapOf(Wrap wrap) { return wrap == Wrap::ClampToEdge ? kClamp : wrap == Wrap::MirroredRepeat ? kMirror : kRepeat; }
@@ -75,20 +77,25 @@ Result<int> GlbMaterials::texture(int number, float quality) {
   if (const auto known = textureOf_.find(number); known != textureOf_.end()) return known->second;
   const Texture small = scaledDown(scene_.textures[static_cast<size_t>(number)], settings_.mostTexturePixels);
   const Json sampler = {{"wrapS", wrapOf(small.wrapU)}, {"wrapT", wrapOf(small.wrapV)}};
-  const Result<std::string> webp = encodeWebp(bytesOf(small, opaque(small) ? 3 : 4), quality);
-  if (!webp) return Error{webp.error()};
-  return textureOf_[number] = addTexture(webp.value(), true, sampler);
+  const ByteImage bytes = bytesOf(small, opaque(small) ? 3 : 4);
+  // Where the file is compressed its reader is known to read WebP.
+  const char* type = settings_.compressed ? kWebp : bytes.channels == 3 && quality < kNormalQuality ? kJpeg : kPng;
+  const Result<std::string> picture = type == kWebp   ? encodeWebp(bytes, quality)
+                                      : type == kJpeg ? encodeJpeg(bytes, kJpegQuality)
+                                                      : encodePng(bytes);
+  if (!picture) return Error{picture.error()};
+  return textureOf_[number] = addTexture(picture.value(), type, sampler);
 }
 
-int GlbMaterials::addTexture(const std::string& picture, bool isWebp, const Json& sampler) {
+int GlbMaterials::addTexture(const std::string& picture, const char* type, const Json& sampler) {
   const auto place = std::find(samplers_.begin(), samplers_.end(), sampler);
   const auto samplerNumber = static_cast<int>(place - samplers_.begin());
   if (place == samplers_.end()) samplers_.push_back(sampler);
   const auto image = static_cast<int>(images_.size());
   bytes_ += picture.size();
-  images_.push_back({{"bufferView", glb_.addView(picture)}, {"mimeType", isWebp ? "image/webp" : "image/png"}});
+  images_.push_back({{"bufferView", glb_.addView(picture)}, {"mimeType", type}});
   Json texture = {{"sampler", samplerNumber}};
-  if (isWebp) {
+  if (type == kWebp) {
     texture["extensions"]["EXT_texture_webp"]["source"] = image;
   } else {
     texture["source"] = image;
@@ -103,7 +110,7 @@ Result<int> GlbMaterials::useLightMap(const LightMap& map, float exposure) {
   if (!png) return Error{png.error()};
   // Without smaller copies of it, which would mix charts.
   const Json sampler = {{"wrapS", kClamp}, {"wrapT", kClamp}, {"minFilter", kLinear}, {"magFilter", kLinear}};
-  const int number = addTexture(png.value(), false, sampler);
+  const int number = addTexture(png.value(), kPng, sampler);
   lightMap_ = {{"index", number}, {"texCoord", 1}, {"intensity", map.luxAtOne * exposure}};
   return number;
 }
@@ -178,7 +185,8 @@ void GlbMaterials::finish() {
       used.push_back(name);
   }
   glb_.json["materials"] = materials_;
-  if (!textureOf_.empty()) used.push_back("EXT_texture_webp"), required.push_back("EXT_texture_webp");
+  if (settings_.compressed && !textureOf_.empty())
+    used.push_back("EXT_texture_webp"), required.push_back("EXT_texture_webp");
   glb_.json["extensionsUsed"] = used, glb_.json["extensionsRequired"] = required;
   if (textures_.empty()) return;
   glb_.json["textures"] = textures_, glb_.json["images"] = images_, glb_.json["samplers"] = samplers_;

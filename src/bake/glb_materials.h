@@ -32,7 +32,7 @@ class GlbMaterials {
 
  private:
   Result<int> texture(int texture, float quality);
-  int addTexture(const std::string& picture, bool isWebp, const Json& sampler);
+  int addTexture(const std::string& picture, const char* type, const Json& sampler);
   Status addTextures(const Material& m, Json& json, Json& pbr);
   void addTransparency(const Material& m, Json& json, Json& pbr);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -33,6 +34,24 @@ void addTile(const Image& light, int tile, uint32_t number, float scale, std::ve
   }
 }
 
+// The tiles in which `wanted` holds of some texel.
+LightTexels tilesWhere(const Image& light, int tile, int slack, const std::function<bool(int, int)>& wanted) {
+  LightTexels out;
+  out.scale = scaleOf(light);
+  std::vector<uint32_t> texels;
+  const int across = light.width / tile, count = across * (light.height / tile);
+  for (int t = 0; t < count; ++t) {
+    bool any = false;
+    for (int i = 0; !any && i < tile * tile; ++i)
+      any = wanted(t % across * tile + i % tile, t / across * tile + i / tile);
+    if (!any) continue;
+    out.tiles.push_back(static_cast<uint32_t>(t));
+    addTile(light, tile, static_cast<uint32_t>(t), out.scale, texels);
+  }
+  out.stream = deflated(predictedPlanes(std::move(texels), tile, tile, slack));
+  return out;
+}
+
 }  // namespace
 
 uint32_t rgb9e5(Vec3 value) {
@@ -55,20 +74,11 @@ Vec3 fromRgb9e5(uint32_t texel) {
 }
 
 LightTexels lightTexels(const Image& light, int tile, int slack) {
-  LightTexels out;
-  out.scale = scaleOf(light);
-  std::vector<uint32_t> texels;
-  const int across = light.width / tile, count = across * (light.height / tile);
-  for (int t = 0; t < count; ++t) {
-    bool dark = true;
-    for (int i = 0; dark && i < tile * tile; ++i)
-      dark = maxComponent(light.at(t % across * tile + i % tile, t / across * tile + i / tile)) <= kDarkLux;
-    if (dark) continue;
-    out.tiles.push_back(static_cast<uint32_t>(t));
-    addTile(light, tile, static_cast<uint32_t>(t), out.scale, texels);
-  }
-  out.stream = deflated(predictedPlanes(std::move(texels), tile, tile, slack));
-  return out;
+  return tilesWhere(light, tile, slack, [&](int x, int y) { return maxComponent(light.at(x, y)) > kDarkLux; });
+}
+
+LightTexels changedTexels(const Image& before, const Image& after, int tile, int slack) {
+  return tilesWhere(after, tile, slack, [&](int x, int y) { return !(before.at(x, y) == after.at(x, y)); });
 }
 
 LightTexels lightTexels(const Image& picture) {

@@ -32,6 +32,12 @@ Vec3 shownWhite(const Display& display, double kelvin) {
   return whiteColour(1e6 / (kDaylightMired + warmth * shift + (display.warmth ? 0 : kUsualMired)));
 }
 
+// The same of light of a temperature that may be too blue to be white.
+Vec3 shownWhiteOf(const Display& display, double kelvin) {
+  const double white = display.warmth ? kelvin : std::min(kelvin, kBluestWhiteK);
+  return shownWhite(display, white) * whiteColour(kelvin) / whiteColour(white);
+}
+
 // Darker by the square of the distance from the middle.
 void darkenCorners(Image& image, float by) {
   const float x0 = 0.5f * static_cast<float>(image.width), y0 = 0.5f * static_cast<float>(image.height),
@@ -56,13 +62,23 @@ void dither(Image& image) {
 
 }  // namespace
 
+std::vector<ShownWhite> shownWhites(const Display& display) {
+  std::vector<ShownWhite> out;
+  if (display.whiteK || !display.automaticWhite) return out;
+  constexpr double kStepMired = 20;
+  for (double mired = 1e6 / kLowestWhiteK; mired >= 1e6 / kHighestWhiteK - kStepMired; mired -= kStepMired) {
+    const double kelvin = std::min(1e6 / mired, kHighestWhiteK);
+    out.push_back({whiteColour(kelvin), shownWhiteOf(display, kelvin)});
+  }
+  return out;
+}
+
 White whiteOf(const Display& display, Vec3 lightColour) {
   if (display.whiteK) return {Vec3(1) / max(whiteColour(*display.whiteK), Vec3(kLeastLight)), *display.whiteK};
   if (!display.automaticWhite || !(luminance(lightColour) > 0)) return {};
   const double kelvin = nearestWhiteK(lightColour);
   const Vec3 light = max(lightColour / luminance(lightColour), Vec3(kLeastLight));
-  const double white = display.warmth ? kelvin : std::min(kelvin, kBluestWhiteK);
-  const Vec3 gains = shownWhite(display, white) / (light * whiteColour(white) / whiteColour(kelvin));
+  const Vec3 gains = shownWhiteOf(display, kelvin) / light;
   const float share = whiteness(light, kelvin);
   return {{std::pow(gains.x, share), std::pow(gains.y, share), std::pow(gains.z, share)}, kelvin};
 }

@@ -40,6 +40,14 @@ struct White {
 // from any white keeps its colour.
 White whiteOf(const Display& display, Vec3 lightColour);
 
+// A white of luminance 1, and what a surface that is white shows under it: whiteOf() for programs that reckon
+// themselves (pages of baked homes). Linear Rec.709.
+struct ShownWhite {
+  Vec3 light, shown;
+};
+// From the warmest white to the bluest; empty where white is not automatic.
+std::vector<ShownWhite> shownWhites(const Display& display);
+
 // What a look does to places of a picture before it is exposed as a whole: linear in light, so that it holds for each
 // layer of a mix as for their sum.
 struct Retouch {

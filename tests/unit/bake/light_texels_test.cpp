@@ -44,6 +44,28 @@ TEST(LightTexels, sunlightIsScaledAndDarkTilesAreLeftOut) {
   EXPECT_NEAR(last.z, 63, 180);
 }
 
+// A lamp is switched off on the right, another comes on in the middle, which had light already; the left stays.
+TEST(LightTexels, changesReplaceTheTilesThatDiffer) {
+  Image before(96, 32), after(96, 32);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      before.at(x, y) = Vec3(50, 40, 20);
+      after.at(x, y) = x < 32 ? before.at(x, y) : x < 64 ? Vec3(50, 40, static_cast<float>(20 + x)) : Vec3(0);
+    }
+  }
+  const LightTexels change = changedTexels(before, after, 32);
+  EXPECT_EQ(change.tiles, (std::vector<uint32_t>{1, 2}));
+  const std::vector<uint32_t> back = texelsOf(change.stream, 2 * 32 * 32, 32, 32);
+  const LightTexels whole = lightTexels(after, 32);
+  EXPECT_EQ(whole.tiles, (std::vector<uint32_t>{0, 1}));
+  const std::vector<uint32_t> fresh = texelsOf(whole.stream, 2 * 32 * 32, 32, 32);
+  for (size_t i = 0; i < 32 * 32; ++i) {
+    ASSERT_EQ(back[i], fresh[32 * 32 + i]) << "as a new bake has it: tile 1";
+    ASSERT_EQ(back[32 * 32 + i], 0u) << "dark now: tile 2";
+  }
+  EXPECT_TRUE(changedTexels(after, after, 32).tiles.empty());
+}
+
 constexpr int kWidth = 24, kHeight = 16;
 
 // What is smooth, what is noise, the ends of all ranges; three tiles that are not square.

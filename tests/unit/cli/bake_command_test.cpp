@@ -28,6 +28,43 @@ TEST(BakeCommand, writesTheHomeThatOtherCommandsOpen) {
   EXPECT_EQ(info.exitStatus, 0) << info.err;
 }
 
+bool pageIsBuilt() { return std::filesystem::exists(ROOMLIGHT_SOURCE_DIR "/viewer/dist-baked/index.html"); }
+
+TEST(BakeCommand, aPageHoldsTheHome) {
+  if (!pageIsBuilt()) GTEST_SKIP() << "the page is not built";
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      runProgram({"bake", testing::writeRoom(folder), "--quality", "draft", "-o", folder / "home.html"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  const std::string page = readFile(folder / "home.html");
+  EXPECT_NE(page.find("id=\"roomlight-home\" data-bytes=\""), std::string::npos);
+  EXPECT_EQ(page.find("<!--roomlight-home-->"), std::string::npos);
+}
+
+TEST(BakeCommand, aFolderHoldsTheNewestHomeAlone) {
+  if (!pageIsBuilt()) GTEST_SKIP() << "the page is not built";
+  const TemporaryFolder folder;
+  const std::filesystem::path web = folder / "web";
+  std::filesystem::create_directory(web);
+  testing::writeFile(web / "home-plan.glb", "of somebody else");
+  std::string first;
+  for (const char* hours : {"9", "15"}) {
+    const ProgramRun run = runProgram(
+        {"bake", testing::writeRoom(folder), "--light", "day", "--hours", hours, "--quality", "draft", "-o", web});
+    ASSERT_EQ(run.exitStatus, 0) << run.err;
+    std::vector<std::string> homes;
+    for (const auto& entry : std::filesystem::directory_iterator(web)) {
+      const std::string name = entry.path().filename().string();
+      if (name.ends_with(".glb") && name != "home-plan.glb") homes.push_back(name);
+    }
+    ASSERT_EQ(homes.size(), 1u);
+    EXPECT_NE(homes[0], first);
+    EXPECT_NE(readFile(web / "index.html").find("href=\"" + homes[0] + "\""), std::string::npos);
+    first = homes[0];
+  }
+  EXPECT_TRUE(std::filesystem::exists(web / "home-plan.glb"));
+}
+
 TEST(BakeCommand, daylightAtTheHourAskedFor) {
   const TemporaryFolder folder;
   const ProgramRun run =

@@ -30,6 +30,17 @@ TEST(White, surfacesHaveTheirOwnColoursWhereNoWarmthIsKept) {
   }
 }
 
+TEST(White, isTheSameByTheTableOfWhites) {
+  const Display display;
+  for (const ShownWhite& white : shownWhites(display)) {
+    const Vec3 shown = max(white.light, Vec3(0.02f)) * whiteOf(display, white.light).gains;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], white.shown[c], 0.01f);
+  }
+  Display fixed;
+  fixed.whiteK = 4000;
+  EXPECT_TRUE(shownWhites(fixed).empty());
+}
+
 // Light that walls of wood have made redder and greener is white too.
 TEST(White, isTheLightAsItIsNotItsTemperatureAlone) {
   Display display;

@@ -175,7 +175,7 @@ export class App {
     this.reading = null;
     this.drawPlan();
     this.linkLater();
-    if (this.metering) this.refresh();
+    if (this.metering) this.readAhead();
   }
 
   // Draws the controls anew, with the next frame.
@@ -214,8 +214,8 @@ export class App {
     this.linkLater();
     this.refresh();
   }
-  setDial(layer: number, change: Partial<Dial>): void {
-    this.useLight(withDial(this.light, layer, change));
+  setDials(layers: readonly number[], change: Partial<Dial>): void {
+    this.useLight(layers.reduce((light, layer) => withDial(light, layer, change), this.light));
   }
   setDaylight(kind: Exclude<Layer["kind"], "lamp">, change: Partial<Dial>): void {
     this.useLight({ ...this.light, [kind]: { ...this.light[kind], ...change } });
@@ -265,7 +265,12 @@ export class App {
   setMetering(on: boolean): void {
     this.metering = on;
     this.reading = null;
+    this.readAhead();
     this.refresh();
+  }
+  // What keys alone can point at: the middle of the picture.
+  private readAhead(): void {
+    this.hover(this.canvas.clientWidth / 2, this.canvas.clientHeight / 2);
   }
   setThroughWalls(on: boolean): void {
     this.mover.throughWalls = on;

@@ -1,5 +1,5 @@
 // What is wrong with the file, for one line to the reader of the page.
-export type FileFault = "missing" | "foreign" | "cut" | "damaged" | "newer";
+export type FileFault = "missing" | "unserved" | "foreign" | "cut" | "damaged" | "newer";
 
 export class BadFile extends Error {
   constructor(

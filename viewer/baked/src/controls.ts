@@ -16,6 +16,7 @@ const kWalk: Readonly<Record<string, readonly [number, number]>> = {
   KeyD: [0, 1],
 };
 const kTurn: Readonly<Record<string, number>> = { KeyQ: 1, ArrowLeft: 1, KeyE: -1, ArrowRight: -1 };
+const kTilt: Readonly<Record<string, number>> = { PageUp: 1, PageDown: -1 };
 
 export interface ControlEvents {
   click(xPx: number, yPx: number): void;
@@ -49,12 +50,13 @@ export class Controls {
   wish(seconds: number): Wish {
     let [forward, right] = this.stick;
     let turn = 0;
+    let tilt = 0;
     for (const code of this.held) {
       forward += kWalk[code]?.[0] ?? 0;
       right += kWalk[code]?.[1] ?? 0;
       turn += kTurn[code] ?? 0;
+      tilt += kTilt[code] ?? 0;
     }
-    let tilt = 0;
     for (const pad of gamepads()) {
       const axis = (i: number) => (Math.abs(pad.axes[i] ?? 0) > kDeadZone ? pad.axes[i]! : 0);
       right += axis(0);
@@ -76,7 +78,7 @@ export class Controls {
   private key(event: KeyboardEvent, down: boolean): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { code } = event;
-    const known = kWalk[code] !== undefined || kTurn[code] !== undefined;
+    const known = [kWalk, kTurn, kTilt].some(keys => keys[code] !== undefined);
     if (!known && !code.startsWith("Shift")) return;
     if (down) this.held.add(code);
     else this.held.delete(code);

@@ -10,6 +10,8 @@ import { kReadoutGlsl, readoutAt } from "./readout.js";
 import type { Uniforms } from "./surfaces.js";
 import { exposureFromEv100, kDitherGlsl, kToneGlsl, kToneNumbers } from "./tone.js";
 import { kMostStored, kUnit } from "./units.js";
+import { meanLight } from "./white_balance.js";
+import type { Vec3 } from "../../src/vector.js";
 
 const kMeterWidth = 48;
 const kMeterHeight = 27;
@@ -60,7 +62,7 @@ const kFragment = `${kHead}${kDeveloped}
       encoded(developed());
       return;
     }
-    float lux = texture(uImage, vUv).r * ${kUnit.toFixed(1)};
+    float lux = dot(texture(uImage, vUv).rgb, vec3(0.2126, 0.7152, 0.0722)) * ${kUnit.toFixed(1)};
     float t = clamp((log(max(lux, 1e-6)) - uScale.x) / (uScale.y - uScale.x), 0.0, 1.0);
     outColor = vec4(lux > 0.0 ? texture(uRamp, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb : vec3(0.09), 1.0);
   }`;
@@ -75,7 +77,6 @@ const kMeterFragment = `
   precision highp int;
   precision highp sampler2D;
   uniform sampler2D uImage;
-  uniform bool uLux;
   in vec2 vUv;
   out vec4 outColor;
   ${kReadoutGlsl}
@@ -86,10 +87,24 @@ const kMeterFragment = `
     for (int i = 0; i < 16; ++i) {
       vec2 at = (cell + (vec2(i % 4, i / 4) + 0.5) / 4.0) / size;
       vec3 c = texture(uImage, at).rgb * ${kUnit.toFixed(1)};
-      float amount = uLux ? c.r : dot(c, vec3(0.2126, 0.7152, 0.0722));
+      float amount = dot(c, vec3(0.2126, 0.7152, 0.0722));
       if (amount > 1e-6) sum += log2(amount), count += 1.0;
     }
     outColor = readout(count > 0.0 ? exp2(sum / count) : 0.0);
+  }`;
+// Red and green of light as shares of all channels, and its logarithm in two bytes.
+const kLightFragment = `
+  precision highp float;
+  precision highp int;
+  precision highp sampler2D;
+  uniform sampler2D uImage;
+  in vec2 vUv;
+  out vec4 outColor;
+  ${kReadoutGlsl}
+  void main() {
+    vec3 c = max(texture(uImage, vUv).rgb, 0.0);
+    float sum = c.r + c.g + c.b;
+    outColor = vec4(sum > 0.0 ? c.rg / sum : vec2(0.0), readout(dot(c, vec3(0.2126, 0.7152, 0.0722))).rg);
   }`;
 
 function quad(fragmentShader: string, uniforms: Uniforms, blending = {}): THREE.Mesh {
@@ -123,16 +138,20 @@ export class Display {
   };
   private readonly image: THREE.WebGLRenderTarget;
   private readonly meterTarget = new THREE.WebGLRenderTarget(kMeterWidth, kMeterHeight, { depthBuffer: false });
+  private readonly lightPicture = new THREE.WebGLRenderTarget(kMeterWidth, kMeterHeight, { type: THREE.HalfFloatType });
+  private readonly lightTarget = new THREE.WebGLRenderTarget(kMeterWidth, kMeterHeight, { depthBuffer: false });
   private readonly average = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType, depthBuffer: false });
   private readonly show: THREE.Mesh;
   private readonly add: THREE.Mesh;
   private readonly showAverage: THREE.Mesh;
   private readonly weight = { value: 1 };
   private readonly meterQuad: THREE.Mesh;
+  private readonly lightQuad: THREE.Mesh;
   private readonly camera = new THREE.Camera();
   private readonly scale = { value: new THREE.Vector2() };
   private readonly short: boolean;
   private ev100Now = 0;
+  private gains: Vec3;
 
   constructor(
     private readonly renderer: THREE.WebGLRenderer,
@@ -160,9 +179,11 @@ export class Display {
     this.show = quad(kFragment, { ...this.uniforms, uImage: image, uRamp: { value: rampTexture }, uScale: this.scale });
     this.add = quad(kAddFragment, { ...this.uniforms, uImage: image, uWeight: this.weight }, kWeighted);
     this.showAverage = quad(kAverageFragment, { uImage: { value: this.average.texture } });
-    this.meterQuad = quad(kMeterFragment, { uImage: image, uLux: this.uniforms.uLux! });
+    this.meterQuad = quad(kMeterFragment, { uImage: image });
+    this.lightQuad = quad(kLightFragment, { uImage: { value: this.lightPicture.texture } });
     this.uniforms.uTone!.value = kToneNumbers[home.display.tone];
     (this.uniforms.uGrade!.value as THREE.Vector2).set(home.display.contrast, home.display.saturation);
+    this.gains = home.display.whiteGains;
     this.ev100 = home.display.ev100;
   }
 
@@ -171,9 +192,16 @@ export class Display {
   }
   set ev100(value: number) {
     this.ev100Now = value;
-    const [r, g, b] = this.home.display.whiteGains;
-    const exposure = exposureFromEv100(value);
-    (this.uniforms.uExposure!.value as THREE.Vector3).set(r, g, b).multiplyScalar(exposure);
+    (this.uniforms.uExposure!.value as THREE.Vector3).set(...this.gains).multiplyScalar(exposureFromEv100(value));
+  }
+
+  // Of the white balance.
+  get whiteGains(): Vec3 {
+    return this.gains;
+  }
+  set whiteGains(value: Vec3) {
+    this.gains = value;
+    this.ev100 = this.ev100Now;
   }
 
   // Lux instead of pictures; null: pictures.
@@ -225,9 +253,30 @@ export class Display {
 
   // Luminances in cd/m², in false colours lux, of the last picture: rows of `width`, zero where there is nothing.
   async meter(): Promise<{ amounts: number[]; width: number }> {
-    drawInto(this.renderer, this.meterTarget, this.meterQuad, this.camera);
-    const bytes = new Uint8Array(4 * kMeterWidth * kMeterHeight);
-    await this.renderer.readRenderTargetPixelsAsync(this.meterTarget, 0, 0, kMeterWidth, kMeterHeight, bytes);
+    const bytes = await this.read(this.meterTarget, this.meterQuad);
     return { amounts: Array.from({ length: bytes.length / 4 }, (_, i) => readoutAt(bytes, i)), width: kMeterWidth };
+  }
+
+  // Mean colour of the light on what the camera sees, as in pictures (src/engine/light_colour.cpp).
+  async lightColour(scene: THREE.Scene, camera: THREE.Camera): Promise<Vec3> {
+    const { uLux } = this.uniforms;
+    const before = uLux!.value as boolean;
+    uLux!.value = true;
+    drawInto(this.renderer, this.lightPicture, scene, camera);
+    uLux!.value = before;
+    const bytes = await this.read(this.lightTarget, this.lightQuad);
+    const places = Array.from({ length: bytes.length / 4 }, (_, i) => 4 * i);
+    const shares = places.map(at => [bytes[at]! / 255, bytes[at + 1]! / 255] as const);
+    return meanLight(
+      shares,
+      places.map(at => readoutAt([bytes[at + 2]!, bytes[at + 3]!, 0], 0)),
+    );
+  }
+
+  private async read(target: THREE.WebGLRenderTarget, from: THREE.Mesh): Promise<Uint8Array> {
+    drawInto(this.renderer, target, from, this.camera);
+    const bytes = new Uint8Array(4 * kMeterWidth * kMeterHeight);
+    await this.renderer.readRenderTargetPixelsAsync(target, 0, 0, kMeterWidth, kMeterHeight, bytes);
+    return bytes;
   }
 }

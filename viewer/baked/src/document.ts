@@ -107,6 +107,7 @@ const extension = v.object({
     contrast: v.optional(positive, 1),
     saturation: v.optional(v.pipe(real, v.minValue(0)), 1),
     whiteGains: v.optional(triple, [1, 1, 1]),
+    whites: v.optional(v.array(v.object({ light: triple, shown: triple })), []),
   }),
 });
 

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
 import type { Mover } from "./mover.js";
 import type { Stage } from "./stage.js";
-import { kEyeHeightM } from "./walk.js";
+import { hasHeadroom, kEyeHeightM } from "./walk.js";
 
 export async function headsetSupported(): Promise<boolean> {
   return (await navigator.xr?.isSessionSupported("immersive-vr").catch(() => false)) ?? false;
@@ -20,6 +20,7 @@ export class Headset {
     new THREE.MeshBasicMaterial({ color: 0xf0b954 }),
   );
   private target: Vec3 | null = null;
+  private hand = 0; // the controller that points: whose trigger was pressed last
 
   constructor(
     private readonly stage: Stage,
@@ -39,6 +40,7 @@ export class Headset {
     this.rig.rotation.y = (this.mover.eye.yawDeg * Math.PI) / 180;
     for (const i of [0, 1]) {
       const controller = renderer.xr.getController(i);
+      controller.addEventListener("selectstart", this.hands[i]!);
       controller.addEventListener("selectend", this.jump);
       this.rig.add(controller);
     }
@@ -46,9 +48,12 @@ export class Headset {
     this.present(true);
     const leave = () => {
       renderer.xr.setAnimationLoop(null);
-      for (const i of [0, 1]) renderer.xr.getController(i).removeEventListener("selectend", this.jump);
+      for (const i of [0, 1]) {
+        renderer.xr.getController(i).removeEventListener("selectstart", this.hands[i]!);
+        renderer.xr.getController(i).removeEventListener("selectend", this.jump);
+      }
+      this.stand(this.rig.position.clone().add(this.aside).toArray());
       this.present(false);
-      this.follow();
       ended();
     };
     try {
@@ -84,9 +89,14 @@ export class Headset {
     this.marker.material.dispose();
   }
 
-  // The place on a floor that the first controller points at.
+  private readonly hands = [0, 1].map(i => () => {
+    this.hand = i;
+    this.aim();
+  });
+
+  // The place on a floor that is pointed at, if one can stand there.
   private aim(): void {
-    const controller = this.stage.renderer.xr.getController(0);
+    const controller = this.stage.renderer.xr.getController(this.hand);
     const from = new THREE.Vector3().setFromMatrixPosition(controller.matrixWorld);
     const d = new THREE.Vector3(0, 0, -1).transformDirection(controller.matrixWorld);
     const { world } = this.stage;
@@ -94,23 +104,28 @@ export class Headset {
     this.target = null;
     if (world && hit) {
       const n = world.normalOf(hit.triangle);
-      if (Math.abs(n[1]) > kFloorSlope * Math.hypot(...n) && d.y < 0)
-        this.target = [from.x + d.x * hit.distance, from.y + d.y * hit.distance, from.z + d.z * hit.distance];
+      const at: Vec3 = [from.x + d.x * hit.distance, from.y + d.y * hit.distance, from.z + d.z * hit.distance];
+      if (Math.abs(n[1]) > kFloorSlope * Math.hypot(...n) && d.y < 0 && hasHeadroom(world, at)) this.target = at;
     }
     this.marker.visible = this.target !== null;
     if (this.target) this.marker.position.set(this.target[0], this.target[1] + 0.01, this.target[2]);
   }
 
+  // How far the wearer stands from the middle of the rig.
+  private get aside(): THREE.Vector3 {
+    const head = new THREE.Vector3().setFromMatrixPosition(this.stage.renderer.xr.getCamera().matrixWorld);
+    return head.sub(this.rig.position).setY(0);
+  }
+
   private readonly jump = (): void => {
     if (!this.target) return;
-    this.rig.position.set(...this.target);
-    this.follow();
+    this.rig.position.set(...this.target).sub(this.aside);
+    this.stand(this.target);
     this.stage.setEye(this.mover.eye); // reflections are those of the room
   };
 
   // The eye of the page stands where the wearer does.
-  private follow(): void {
-    const { x, y, z } = this.rig.position;
-    this.mover.stand({ ...this.mover.eye, position: [x, y + kEyeHeightM, z] });
+  private stand([x, y, z]: readonly number[]): void {
+    this.mover.stand({ ...this.mover.eye, position: [x!, y! + kEyeHeightM, z!] });
   }
 }

@@ -62,12 +62,30 @@ function kelvinSlider(app: App, name: string, own: number, dial: Dial, change: C
 
 function lamp(app: App, layer: Layer, i: number): TemplateResult {
   const dial = app.light.dials[i]!;
-  const change: Change = c => app.setDial(i, c);
+  const change: Change = c => app.setDials([i], c);
   return html`<li class=${dial.on ? "lit" : ""}>
     ${toggle(app.say("on", layer.name), dial.on, on => change({ on }), layer.name)}
     ${levelSlider(app, layer.name, dial, change)}
     ${layer.kelvin === undefined ? nothing : kelvinSlider(app, layer.name, layer.kelvin, dial, change)}
   </li>`;
+}
+
+// The lamps of a room as one.
+function together(app: App, name: string, entries: readonly [Layer, number][]): TemplateResult {
+  const dials = entries.map(([, i]) => app.light.dials[i]!);
+  const change: Change = c =>
+    app.setDials(
+      entries.map(([, i]) => i),
+      c,
+    );
+  const lit = dials.filter(dial => dial.on);
+  const level = lit.reduce((sum, dial) => sum + dial.level, 0) / Math.max(1, lit.length);
+  const kelvins = entries.map(([layer]) => layer.kelvin);
+  const own = Math.round(kelvins.reduce<number>((sum, k) => sum + (k ?? 0), 0) / kelvins.length);
+  const dial: Dial = { on: lit.length > 0, level: lit.length > 0 ? level : 1, kelvin: dials[0]!.kelvin };
+  return html`<h3>${toggle(app.say("allInRoom", name), dial.on, on => change({ on }), name)}</h3>
+    ${levelSlider(app, app.say("allInRoom", name), dial, change)}
+    ${kelvins.includes(undefined) ? nothing : kelvinSlider(app, app.say("allInRoom", name), own, dial, change)}`;
 }
 
 function lamps(app: App): TemplateResult {
@@ -78,10 +96,8 @@ function lamps(app: App): TemplateResult {
   if (rooms.size === 0) return html`<p class="hint">${app.say("noLamps")}</p>`;
   return html`${[...rooms].map(([room, entries]) => {
     const name = room || app.say("otherRoom");
-    const on = entries.some(([, i]) => app.light.dials[i]!.on);
-    const all = (next: boolean) => entries.forEach(([, i]) => app.setDial(i, { on: next }));
     return html`<div class="group">
-      <h3>${entries.length > 1 ? toggle(app.say("allInRoom", name), on, all, name) : name}</h3>
+      ${entries.length > 1 ? together(app, name, entries) : html`<h3>${name}</h3>`}
       <ul>
         ${entries.map(([layer, i]) => lamp(app, layer, i))}
       </ul>

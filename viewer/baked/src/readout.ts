@@ -7,7 +7,7 @@ export const kReadoutGlsl = `
   }`;
 
 // Zero where there is nothing.
-export function readoutAt(bytes: Uint8Array, pixel: number): number {
+export function readoutAt(bytes: ArrayLike<number>, pixel: number): number {
   const at = 4 * pixel;
   const share = (bytes[at]! + (bytes[at + 1]! + bytes[at + 2]! / 255) / 256) / 256;
   const amount = 2 ** (48 * share - 24);

@@ -21,6 +21,7 @@ export async function homeBytes(progress: (share: number) => void): Promise<Uint
 }
 
 async function download(address: string, progress: (share: number) => void): Promise<Uint8Array> {
+  if (location.protocol === "file:") throw new BadFile("unserved"); // browsers let pages read no files
   const response = await fetch(address).catch(() => null);
   if (!response?.ok || !response.body) throw new BadFile("missing", address.slice(address.lastIndexOf("/") + 1));
   const expected = Number(response.headers.get("content-length") ?? 0);

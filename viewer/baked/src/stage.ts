@@ -15,6 +15,7 @@ import { middleOf, roomInView } from "./rooms.js";
 import { Sky } from "./sky.js";
 import { SpotMeter } from "./spot_meter.js";
 import { Sunlight } from "./sunlight.js";
+import { differ, followed, gainsFor, luminance } from "./white_balance.js";
 import { Surfaces, type TextureSource, type Uniforms } from "./surfaces.js";
 import { kFinishGlsl } from "./surface_shader.js";
 
@@ -30,10 +31,7 @@ const kPictures = 8; // that are averaged where nothing moves
 const kRestMs = 150; // after the last change, so that dials answer at once
 
 // What a tint leaves of light as a whole.
-const grey = ([r, g, b]: Vec3): Vec3 => {
-  const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-  return [luminance, luminance, luminance];
-};
+const grey = (tint: Vec3): Vec3 => [luminance(tint), luminance(tint), luminance(tint)];
 
 export class Stage {
   readonly scene = new THREE.Scene();
@@ -56,6 +54,7 @@ export class Stage {
   private room: number | null | undefined = undefined;
   private factors: Vec3[] | null = null;
   private wantedEv100: number | null = null;
+  private wantedGains: Vec3 | null = null; // of the white balance
   private biasEv: number | null = null; // of the home's exposure over the automatic one at its first camera
   private due = true;
   private pictures = 0; // of the average
@@ -261,13 +260,22 @@ export class Stage {
     );
   }
 
-  private get adapting(): boolean {
+  private get exposing(): boolean {
     return this.automatic && this.wantedEv100 !== null && Math.abs(this.wantedEv100 - this.display.ev100) > 1e-6;
+  }
+  private get balancing(): boolean {
+    return this.wantedGains !== null && this.wantedGains !== this.display.whiteGains;
+  }
+  private get adapting(): boolean {
+    return this.scale === null && (this.exposing || this.balancing);
   }
 
   private adapt(seconds: number): void {
-    if (!this.adapting || this.scale) return;
-    this.setEv100(adapted(this.display.ev100, this.wantedEv100!, Math.min(seconds, 0.1)));
+    if (!this.adapting) return;
+    const step = Math.min(seconds, 0.1);
+    if (this.exposing) this.setEv100(adapted(this.display.ev100, this.wantedEv100!, step));
+    if (this.balancing) this.display.whiteGains = followed(this.display.whiteGains, this.wantedGains!, step);
+    this.due = true;
     if (!this.adapting) this.meterDue = true; // what was too bright to be told is seen now
   }
 
@@ -278,6 +286,7 @@ export class Stage {
     const { scale, scaleDue } = this;
     const finished = this.complete && !this.probe.busy && !this.due; // the picture read
     const { amounts, width } = await this.display.meter();
+    if (scale === null && this.complete) await this.balance();
     this.metering = false;
     if ((scale === null) !== (this.scale === null)) this.meterDue = this.due = true;
     else if (scale === null) this.aim(lookedAtEv100(amounts, width), finished);
@@ -287,6 +296,16 @@ export class Stage {
       this.due = true;
       this.changed();
     }
+  }
+
+  private async balance(): Promise<void> {
+    const { whites } = this.home.display;
+    if (whites.length === 0) return;
+    for (const pane of this.surfaces.panes) pane.visible = false;
+    const colour = this.display.lightColour(this.scene, this.camera); // drawn at once, read later
+    for (const pane of this.surfaces.panes) pane.visible = this.scale === null;
+    const gains = gainsFor(whites, await colour);
+    if (gains && differ(gains, this.wantedGains ?? this.display.whiteGains)) this.wantedGains = gains;
   }
 
   private aim(automatic: number | null, finished: boolean): void {

@@ -5,6 +5,8 @@ const kEnglish = {
   loading: "Loading the home …",
   loadingLight: "Loading the light …",
   fault_missing: "There is no home in this page. Make one with roomlight bake.",
+  fault_unserved:
+    "This page is part of a folder, which wants a web server. To open one file: roomlight bake -o home.html.",
   fault_foreign: "This file is not a home baked by roomlight.",
   fault_cut: "The file of this home is cut off. Copy or download it again.",
   fault_damaged: "The file of this home is damaged. Copy or download it again.",
@@ -65,7 +67,7 @@ const kEnglish = {
   stick: "Walk: drag the stick",
   help: "Keys",
   help1: "W A S D or arrows: walk; Shift: faster",
-  help2: "Q, E or drag: look around; wheel: angle of view",
+  help2: "Q, E, Page Up, Page Down or drag: look around; wheel: angle of view",
   help3: "Click on a floor: go there",
   help4: "F: false colours; M: light meter; P: save picture",
 };
@@ -77,6 +79,8 @@ const kGerman: Record<StringKey, string> = {
   loading: "Die Wohnung wird geladen …",
   loadingLight: "Das Licht wird geladen …",
   fault_missing: "In dieser Seite ist keine Wohnung. roomlight bake erzeugt eine.",
+  fault_unserved:
+    "Diese Seite gehört zu einem Ordner, der einen Webserver braucht. Als einzelne Datei: roomlight bake -o home.html.",
   fault_foreign: "Diese Datei ist keine von roomlight gebackene Wohnung.",
   fault_cut: "Die Datei dieser Wohnung ist abgeschnitten. Bitte erneut kopieren oder herunterladen.",
   fault_damaged: "Die Datei dieser Wohnung ist beschädigt. Bitte erneut kopieren oder herunterladen.",
@@ -141,7 +145,7 @@ const kGerman: Record<StringKey, string> = {
   stick: "Gehen: Stick ziehen",
   help: "Tasten",
   help1: "W A S D oder Pfeile: gehen; Umschalt: schneller",
-  help2: "Q, E oder Ziehen: umherblicken; Rad: Bildwinkel",
+  help2: "Q, E, Bild auf, Bild ab oder Ziehen: umherblicken; Rad: Bildwinkel",
   help3: "Klick auf einen Boden: dorthin gehen",
   help4: "F: Falschfarben; M: Luxmeter; P: Bild speichern",
 };

@@ -8,7 +8,7 @@ import { kMostStored, kUnit } from "./units.js";
 // What ends every surface: radiance in cd/m², or in false colours lux, as the target wants it.
 export const kFinishGlsl = `
   uniform bool uEncode; // no pass follows that would: on headsets
-  uniform bool uLux; // false colours
+  uniform bool uLux; // the light that arrives, in its colour
   uniform int uTone;
   uniform vec2 uGrade;
   uniform vec3 uExposure; // with the gains of the white balance
@@ -18,9 +18,8 @@ export const kFinishGlsl = `
   ${kToneGlsl}
   const vec3 kStep = vec3(1.0, 1.0, 2.0) / 64.0;
   vec3 finish(vec3 radiance, vec3 lux) {
-    float amount = dot(lux, vec3(0.2126, 0.7152, 0.0722)) / ${kUnit.toFixed(1)};
     vec3 dithered = 1.0 + uDither * (dither(gl_FragCoord.yx) - 0.5) * kStep;
-    if (uLux) return min(amount * dithered, ${kMostStored.toFixed(1)});
+    if (uLux) return min(lux / ${kUnit.toFixed(1)} * dithered, ${kMostStored.toFixed(1)});
     if (uEncode) return srgbEncode(toneCurve(radiance * uExposure, uTone, uGrade));
     return min(radiance * dithered, uMostRadiance) / ${kUnit.toFixed(1)};
   }`;

@@ -5,6 +5,7 @@ import { after, before, test } from "node:test";
 import type { Browser, BrowserContextOptions } from "playwright-core";
 import { falseColour, placeOnScale, roundSteps } from "../../baked/src/false_colour.js";
 import { exposureFromEv100, toned } from "../../baked/src/tone.js";
+import { luminance } from "../../baked/src/white_balance.js";
 import type { Vec3 } from "../../src/vector.js";
 import { bakedHome, kAlbedo, kEv100, kLampLux, kSkyLux, kStraightLux, kSunLux } from "../double/baked_home.js";
 import {
@@ -14,6 +15,7 @@ import {
   serveFolder,
   slide,
   visitHome,
+  writeLinkingPage,
   writePage,
   type BakedVisit,
 } from "./baked_support.js";
@@ -104,6 +106,24 @@ test("what is bright keeps its colour where light is balanced far from white", {
   await visit.page.getByLabel("Pendant: on", { exact: true }).uncheck();
   const exposed = kLampLux[1]!.map((c, i) => (c * kAlbedo * exposureFromEv100(ev) * whiteGains[i]!) / Math.PI);
   await shows(visit, toned(exposed as unknown as Vec3, "neutral"), "beyond white");
+  await visit.end();
+});
+
+test("white balance follows the light that is on", { skip }, async () => {
+  const light = kLampLux.map(lux => lux.map(c => c / luminance(lux)) as unknown as Vec3);
+  const shownAs: readonly Vec3[] = [
+    [1, 1, 1],
+    [1.2, 0.97, 0.71],
+  ];
+  const whites = light.map((of, i) => ({ light: of, shown: shownAs[i]! }));
+  const file = bakedHome({ display: { ev100: kEv100, tone: "agx", whiteGains: [1, 1, 1], whites } });
+  const visit = await opened(`${writePage("whites", file)}#eye=2,1.6,4,0,0,60&ev=${kEv100}`);
+  const [pendant, strip] = kLampLux as [Vec3, Vec3];
+  const as = (i: number, lux: Vec3) => shown(shownAs[i]!.map(c => c * luminance(lux)) as unknown as Vec3);
+  await shows(visit, as(0, pendant), "the first is white");
+  await visit.page.getByLabel("Strip: on").check();
+  await visit.page.getByLabel("Pendant: on", { exact: true }).uncheck();
+  await shows(visit, as(1, strip), "the second keeps some of its warmth");
   await visit.end();
 });
 
@@ -225,6 +245,19 @@ test("false colours, their legend and the meter say how many lux there are", { s
   await visit.end();
 });
 
+test("the lamps of a room are dimmed together", { skip }, async () => {
+  const visit = await opened();
+  const { page } = visit;
+  await page.getByLabel("Automatic exposure").uncheck();
+  await slide(page, "All of Kitchen: brightness", 50);
+  const [pendant, strip] = kLampLux as [Vec3, Vec3];
+  await shows(visit, shown(sum([pendant, 0.5], [strip, 0.5])), "both at half");
+  assert.equal(await page.getByLabel("Strip: brightness").inputValue(), "50");
+  await page.getByLabel("All of Kitchen", { exact: true }).uncheck();
+  assert.ok(!(await page.getByLabel("Pendant: on", { exact: true }).isChecked()));
+  await visit.end();
+});
+
 test("what is set is in the link, and comes back with it", { skip }, async () => {
   const visit = await opened();
   const { page } = visit;
@@ -339,6 +372,12 @@ test("a folder on a server works like the single file", { skip }, async () => {
   await folder.end();
 });
 
+test("a folder that no server gives out says so", { skip }, async () => {
+  const visit = await visitHome(browser, writeLinkingPage("unserved"));
+  assert.match(await visit.stopped(), /wants a web server/);
+  await visit.end();
+});
+
 test("without WebGL one line says so", { skip }, async () => {
   const plain = await launchWithoutWebGl();
   const visit = await visitHome(plain, home);
@@ -434,6 +473,12 @@ test("everything is reached by keyboard, and the focus is seen", { skip }, async
   await page.locator("#view").focus();
   await page.keyboard.press("KeyF");
   await page.getByText("Illuminance, lux").waitFor();
+  await page.keyboard.press("KeyM");
+  await page.locator("#reading", { hasText: /\d\s*lx/ }).waitFor(); // of the middle of the picture
+  await page.keyboard.down("PageDown");
+  await page.waitForTimeout(500);
+  await page.keyboard.up("PageDown");
+  await page.waitForFunction(() => Number(/eye=([^&]+)/.exec(location.hash)?.[1]?.split(",")[4]) < -5);
   await visit.end();
 });
 

@@ -55,9 +55,18 @@ export function writePage(name: string, file: Uint8Array | null): string {
   return pathToFileURL(path).href;
 }
 
+const linking = () => readFileSync(kPage, "utf8").replace(kMarker, '<link id="roomlight-home" href="home-0.glb">');
+
+// The page of a folder, opened without a server.
+export function writeLinkingPage(name: string): string {
+  const path = resolve(`build/baked-pages/${name}.html`);
+  writeFileSync(path, linking());
+  return pathToFileURL(path).href;
+}
+
 // A folder with the page and the file beside it, as a web server gives it out.
 export async function serveFolder(file: Uint8Array): Promise<{ link: string; end(): Promise<void> }> {
-  const page = readFileSync(kPage, "utf8").replace(kMarker, '<link id="roomlight-home" href="home-0.glb">');
+  const page = linking();
   const server = createServer((request, response) => {
     if (request.url === "/") response.writeHead(200, { "content-type": "text/html" }).end(page);
     else if (request.url === "/home-0.glb") response.writeHead(200, { "content-length": file.length }).end(file);

@@ -35,7 +35,12 @@ interface Options {
   readonly glossy?: boolean; // a mirror of metal for a floor
   readonly shelf?: boolean; // over the floor, with five times the light: hides the foot of the wall from the middle
   readonly brightWall?: boolean; // the one at z = 0 has five times the light
-  readonly display?: { readonly ev100: number; readonly tone: string; readonly whiteGains: Vec3 };
+  readonly display?: {
+    readonly ev100: number;
+    readonly tone: string;
+    readonly whiteGains: Vec3;
+    readonly whites?: readonly { readonly light: Vec3; readonly shown: Vec3 }[];
+  };
   readonly sunPatch?: boolean; // suns also shine straight onto half of the floor
   readonly floorNormal?: Vec3; // of a normal map: x along x, y along z
   readonly floorLean?: readonly [number, number]; // of lamps' light: along x and against z, over illuminance
