@@ -164,19 +164,23 @@ ChartGrid vertexGrid(size_t count) {
   return {std::min(n, row), (n + row - 1) / row, {}};
 }
 
-Layout layoutOf(const Scene& scene, const std::vector<Chart>& charts, const AtlasSettings& settings) {
-  std::map<int, std::vector<size_t>> byRoom;
-  for (size_t i = 0; i < charts.size(); ++i)
-    byRoom[roomAt(scene, charts[i].middle + charts[i].normal * kOffRoomM)].push_back(i);
+// `apart`: each room in rows of tiles of its own.
+Layout layoutOf(const Scene& scene, const std::vector<Chart>& charts, const AtlasSettings& settings, bool apart) {
+  std::vector<int> rooms;
+  std::map<int, std::vector<size_t>> groups;
+  for (size_t i = 0; i < charts.size(); ++i) {
+    rooms.push_back(roomAt(scene, charts[i].middle + charts[i].normal * kOffRoomM));
+    groups[apart ? rooms.back() : 0].push_back(i);
+  }
   Layout out;
   out.width = settings.width;
-  for (const auto& [room, members] : byRoom) {
+  for (const auto& [group, members] : groups) {
     std::vector<stbrp_rect> rects;
     for (const size_t i : members) {
       const bool fine = charts[i].byVertices;
       const ChartGrid grid =
           fine ? vertexGrid(sharedVerticesOf(scene, charts[i], shareM(settings, charts[i])).places().size())
-               : gridOf(charts[i], settings.texelM, room < 0);
+               : gridOf(charts[i], settings.texelM, rooms[i] < 0);
       const int gap = fine ? 0 : 2 * kGap;
       rects.push_back({static_cast<int>(out.grids.size()), grid.width + gap, grid.height + gap, 0, 0, 0});
       out.grids.push_back(grid), out.order.push_back(i);
@@ -196,13 +200,19 @@ Layout layoutOf(const Scene& scene, const std::vector<Chart>& charts, const Atla
 }  // namespace
 
 Result<Atlas> atlasOf(const Scene& scene, std::vector<Chart> charts, AtlasSettings settings) {
-  Layout layout = layoutOf(scene, charts, settings);
+  bool apart = true;
+  Layout layout = layoutOf(scene, charts, settings, apart);
   while (layout.height > kMostAtlasEdge) {
-    if (settings.width >= kMostAtlasEdge) settings.texelM *= kLongerTexels;
-    settings.width = kMostAtlasEdge;
+    if (settings.width < kMostAtlasEdge) {
+      settings.width = kMostAtlasEdge;
+    } else if (apart) {
+      apart = false;  // many rooms leave the ends of many rows empty
+    } else {
+      settings.texelM *= kLongerTexels;
+    }
     if (settings.texelM > kLongestTexelM)
       return Error{"the home has more fine surfaces than a graphics chip holds light for; leave some out"};
-    layout = layoutOf(scene, charts, settings);
+    layout = layoutOf(scene, charts, settings, apart);
   }
   Atlas atlas;
   atlas.width = layout.width, atlas.height = layout.height;

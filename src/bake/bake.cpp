@@ -18,7 +18,7 @@ namespace {
 
 bool sameLamp(const Lamp& a, const Lamp& b) { return a.name == b.name && length(a.position - b.position) < 1e-3f; }
 
-constexpr const char* kOff = " (off)";
+constexpr const char* kOff = "\x1foff";  // at the end of a name; no file has it
 
 // The lamps of the home, and those that are off as groups of their own: a lamp that is on may bear the same name. None
 // of these where there are too many lamps to be told apart.
@@ -213,6 +213,7 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   }
   const Result<ShownAs> shown = shownAs(whole, stages);
   if (!shown) return Error{shown.error()};
+  if (stages.cancelled()) return BakedHome{};
   return stages.run("pack", [&](const Progress&) -> Result<BakedHome> {
     for (std::vector<BakedLayer>* layers : {&lamps.value().layers, &daylight}) {
       for (BakedLayer& layer : *layers) takeLean(turned, laid.lit, layer);

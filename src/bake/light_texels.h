@@ -27,6 +27,9 @@ constexpr int kSlack = 1;  // of a mantissa: .4 % of the largest channel
 
 // Of a picture of light whose edges are multiples of `tile`. Mantissas are off by at most `slack`.
 LightTexels lightTexels(const Image& light, int tile, int slack = kSlack);
+// Of a layer whose places were lit anew: the tiles that differ from before, whole, dark ones among them. They replace
+// those of the layer (docs/reference/baked.md, changes).
+LightTexels changedTexels(const Image& before, const Image& after, int tile, int slack = kSlack);
 // Of a picture as one tile of any size.
 LightTexels lightTexels(const Image& picture);
 

@@ -68,7 +68,7 @@ std::vector<ShownWhite> shownWhites(const Display& display) {
   constexpr double kStepMired = 20;
   for (double mired = 1e6 / kLowestWhiteK; mired >= 1e6 / kHighestWhiteK - kStepMired; mired -= kStepMired) {
     const double kelvin = std::min(1e6 / mired, kHighestWhiteK);
-    out.push_back({whiteColour(kelvin), shownWhiteOf(display, kelvin)});
+    out.push_back({whiteColour(kelvin), max(shownWhiteOf(display, kelvin), Vec3(kLeastLight))});
   }
   return out;
 }

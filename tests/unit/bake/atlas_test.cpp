@@ -127,6 +127,24 @@ TEST(Atlas, texelsAreAsFineAsAskedAndTheGroundIsCoarse) {
   EXPECT_LE(count(fine, true), 64u * 64u);
 }
 
+// A hotel: each room in rows of tiles of its own would be higher than a texture can be.
+TEST(Atlas, manyRoomsShareRows) {
+  Scene scene;
+  const int grey = addMaterial(scene, lambertian(0.5f));
+  for (int i = 0; i < 150; ++i) {
+    const auto x = static_cast<float>(4 * i);
+    addRoom(scene, {x, 0, 0}, {x + 3, 2.5f, 3}, std::vector<int>(6, grey));
+    Room floor;
+    floor.floor = {{x, 0}, {x, 3}, {x + 3, 3}, {x + 3, 0}};
+    scene.rooms.push_back(floor);
+  }
+  AtlasSettings settings;
+  settings.texelM = 0.05f;
+  const Atlas atlas = atlasOfAll(scene, settings);
+  EXPECT_LE(atlas.height, kMostAtlasEdge);
+  for (const PlacedChart& chart : atlas.charts) ASSERT_NEAR(chart.grid.perM.x, 20, 1.5f) << "texels of 5 cm";
+}
+
 TEST(Atlas, whatDoesNotFitGetsLongerTexels) {
   Scene scene;
   const int grey = addMaterial(scene, lambertian(0.5f));

@@ -44,6 +44,7 @@ export class App {
   loadedShare = 0;
   canEnterVr = false;
   panelOpen = innerWidth > kNarrowPx;
+  private loaded: LoadedHome | null; // until its light is on the GPU
   private readonly canvas: HTMLCanvasElement;
   private readonly key: string;
   private readonly pace = new Pace();
@@ -59,11 +60,12 @@ export class App {
 
   constructor(
     renderer: WebGLRenderer,
-    private readonly loaded: LoadedHome,
+    loaded: LoadedHome,
     private readonly root: HTMLElement,
     public language: Language,
   ) {
     this.say = speaker(language);
+    this.loaded = loaded;
     this.home = loaded.document.extensions.ROOMLIGHT_light_layers;
     this.fileLight = stateOfFile(this.home);
     this.key = scenes.keyOf(this.home);
@@ -86,7 +88,7 @@ export class App {
       hover: (x, y) => this.hover(x, y),
       zoom: factor => this.setFov(this.mover.eye.fovDeg * factor),
     });
-    this.mover.stand(linked.eye ?? (camera ? eyeOfCamera(camera) : this.firstEye()));
+    this.mover.stand(linked.eye ?? (camera ? eyeOfCamera(camera) : this.firstEye(loaded)));
     addEventListener("resize", () => this.resize());
     addEventListener("hashchange", () => this.followLink());
     this.canvas.addEventListener("keydown", event => this.shortcut(event));
@@ -101,6 +103,8 @@ export class App {
   }
 
   async start(): Promise<void> {
+    const { loaded } = this;
+    if (!loaded) return;
     this.stage.setEye(this.mover.eye);
     this.stage.setLight(this.light);
     this.nextFrame();
@@ -112,7 +116,7 @@ export class App {
         : this.light[layer.kind].on && layer.hour === this.light.hour;
     };
     let shownMs = 0;
-    await loadLight(this.loaded, this.stage, factor, (layer, share) => {
+    await loadLight(loaded, this.stage, factor, (layer, share) => {
       this.loadedShare = share;
       this.stage.include(layer);
       // Not after each of very many.
@@ -123,7 +127,8 @@ export class App {
     });
     this.loadedShare = 1;
     this.stage.complete = true;
-    const { positions, index } = this.loaded.geometry;
+    const { positions, index } = loaded.geometry;
+    this.loaded = null;
     const world = new Bvh(positions, index);
     this.stage.useWorld(world);
     this.mover.useWorld(world);
@@ -131,9 +136,9 @@ export class App {
     this.refresh();
   }
 
-  private firstEye() {
+  private firstEye(loaded: LoadedHome) {
     const room = this.home.rooms[0];
-    const { low, high } = boxAround(this.loaded.geometry.positions);
+    const { low, high } = boxAround(loaded.geometry.positions);
     const [x, z] = room ? middleOf(room) : [(low[0] + high[0]) / 2, (low[2] + high[2]) / 2];
     return {
       position: [x, (room?.elevationM ?? low[1]) + kEyeHeightM, z] as const,

@@ -6,6 +6,7 @@ import { BadFile } from "./bad_file.js";
 const index = v.pipe(whole, v.minValue(0));
 const size = v.pipe(whole, v.minValue(1));
 const positive = v.pipe(real, v.gtValue(0));
+const positives = v.strictTuple([positive, positive, positive]);
 // A texture's image may stand in an extension, for readers of WebP.
 const textureImage = v.pipe(
   v.object({
@@ -74,6 +75,7 @@ const layer = v.object({
   on: v.optional(v.boolean(), true),
   hour: v.optional(real),
   kelvin: v.optional(positive),
+  color: v.optional(triple, [1, 1, 1]),
   position: v.optional(triple),
   light,
   lean: v.optional(light),
@@ -106,8 +108,8 @@ const extension = v.object({
     tone: v.picklist(["neutral", "agx", "filmic", "clip"]),
     contrast: v.optional(positive, 1),
     saturation: v.optional(v.pipe(real, v.minValue(0)), 1),
-    whiteGains: v.optional(triple, [1, 1, 1]),
-    whites: v.optional(v.array(v.object({ light: triple, shown: triple })), []),
+    whiteGains: v.optional(positives, [1, 1, 1]),
+    whites: v.optional(v.array(v.object({ light: triple, shown: positives })), []),
   }),
 });
 
@@ -195,7 +197,7 @@ function checkTiles({ atlas, layers }: Home): void {
   layers.forEach(({ light, lean, sun }, i) => {
     const listed = { light: light.tiles, lean: lean?.tiles ?? [], "sun.mask": sun?.mask.tiles ?? [] };
     for (const [what, tiles] of Object.entries(listed))
-      if (tiles.length > count || tiles.some(tile => tile >= count))
+      if (tiles.some((tile, k) => tile >= count || (k > 0 && tile <= tiles[k - 1]!)))
         throw new BadFile("damaged", `layers.${i}.${what}.tiles: the atlas has ${count}`);
     if (sun && (sun.mask.fine !== fine || fine * atlas.tile > kMostCells))
       throw new BadFile("damaged", `layers.${i}.sun.mask.fine: ${sun.mask.fine}`);

@@ -113,8 +113,7 @@ export class Headset {
 
   // How far the wearer stands from the middle of the rig.
   private get aside(): THREE.Vector3 {
-    const head = new THREE.Vector3().setFromMatrixPosition(this.stage.renderer.xr.getCamera().matrixWorld);
-    return head.sub(this.rig.position).setY(0);
+    return this.camera.position.clone().setY(0).applyQuaternion(this.rig.quaternion);
   }
 
   private readonly jump = (): void => {

@@ -30,9 +30,6 @@ const kMostBiasEv = 2;
 const kPictures = 8; // that are averaged where nothing moves
 const kRestMs = 150; // after the last change, so that dials answer at once
 
-// What a tint leaves of light as a whole.
-const grey = (tint: Vec3): Vec3 => [luminance(tint), luminance(tint), luminance(tint)];
-
 export class Stage {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(60, 1, kNearM, kFarM);
@@ -106,12 +103,21 @@ export class Stage {
     this.due = true;
   }
 
+  // What factors leave of the luminance of each layer.
+  private whole(factors: readonly Vec3[]): Vec3[] {
+    return factors.map(([r, g, b], i) => {
+      const { color } = this.home.layers[i]!;
+      const share = luminance([r * color[0], g * color[1], b * color[2]]) / luminance(color);
+      return [share, share, share];
+    });
+  }
+
   // A layer has come: its light is added to what is there. Seen with the next frame that is due.
   include(layer: number): void {
     const factors = this.factors ?? [];
     if (!factors[layer]?.some(c => c > 0)) return;
     this.light.update(factors, layer);
-    this.lean?.update(factors.map(grey), layer);
+    this.lean?.update(this.whole(factors), layer);
     this.sky.update(factors, layer);
     this.probe.touch();
     this.scaleDue = this.meterDue = true;
@@ -122,7 +128,7 @@ export class Stage {
     if (sameFactors(this.factors, factors)) return;
     this.factors = factors;
     this.light.update(factors);
-    this.lean?.update(factors.map(grey));
+    this.lean?.update(this.whole(factors));
     this.sunlight.update(factors);
     this.sky.update(factors);
     this.surfaces.setFactors(factors);

@@ -42,6 +42,9 @@ export const kSurfaceVertex = `
   uniform sampler2D uLight, uSurfaces;
   out vec3 vPosition, vNormal;
   centroid out vec2 vLightUv;
+  #if defined(LEAN) && defined(HAS_NORMAL)
+    out vec2 vAxesUv; // the same at the middle of a pixel, as derivatives want it
+  #endif
   centroid out vec3 vLight;
   ${kSunGlsl}
   #ifdef SUN_TILE
@@ -57,6 +60,9 @@ export const kSurfaceVertex = `
     vPosition = position;
     vNormal = normal;
     vLightUv = lightUv;
+    #if defined(LEAN) && defined(HAS_NORMAL)
+      vAxesUv = lightUv;
+    #endif
     int material = int(tag.x);
     vBase = texelFetch(uSurfaces, ivec2(0, material), 0);
     vEmission = texelFetch(uSurfaces, ivec2(1, material), 0);
@@ -113,6 +119,9 @@ export const kSurfaceFragment = `
   in vec3 vPosition, vNormal;
   centroid in vec3 vLight; // beyond the edge of a triangle it could be below zero
   centroid in vec2 vLightUv;
+  #if defined(LEAN) && defined(HAS_NORMAL)
+    in vec2 vAxesUv;
+  #endif
   ${kSunGlsl}
   #ifdef SUN_TILE
     centroid in vec3 vSunLeft[2];
@@ -172,7 +181,7 @@ export const kSurfaceFragment = `
   float towards(vec3 n) {
     #if defined(HAS_NORMAL) && defined(LEAN)
       vec3 side = normalize(vNormal);
-      mat2x3 axes = axesOf(vLightUv, side);
+      mat2x3 axes = axesOf(vAxesUv, side);
       vec3 lean = texture(uLean, vLightUv).rgb;
       if (vLit == 0 && lean.b > 0.0) {
         vec2 along = 4.0 * lean.rg / lean.b - 2.0;

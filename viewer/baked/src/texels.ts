@@ -83,13 +83,11 @@ export function timesLuminance(
       const of = (share >>> 18) & 511;
       const from = lit === undefined ? 0 : light[lit + i]!;
       const luminance = 0.2126 * (from & 511) + 0.7152 * ((from >>> 9) & 511) + 0.0722 * ((from >>> 18) & 511);
-      const exponent = from >>> 27;
-      // Twice as much would still fit.
-      const part = (channel: number) => Math.min(Math.round((luminance * channel) / of / 2), kMost);
+      const part = (channel: number) => Math.min(Math.round((luminance * channel) / of), kMost);
       shares[place * texels + i] =
-        of === 0 || luminance === 0 || exponent === 31
+        of === 0 || luminance === 0
           ? 0
-          : (part(share & 511) | (part((share >>> 9) & 511) << 9) | (part(of) << 18) | ((exponent + 1) << 27)) >>> 0;
+          : (part(share & 511) | (part((share >>> 9) & 511) << 9) | (part(of) << 18) | ((from >>> 27) << 27)) >>> 0;
     }
   });
 }

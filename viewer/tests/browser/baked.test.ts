@@ -254,6 +254,7 @@ test("the lamps of a room are dimmed together", { skip }, async () => {
   await shows(visit, shown(sum([pendant, 0.5], [strip, 0.5])), "both at half");
   assert.equal(await page.getByLabel("Strip: brightness").inputValue(), "50");
   await page.getByLabel("All of Kitchen", { exact: true }).uncheck();
+  await visit.settled();
   assert.ok(!(await page.getByLabel("Pendant: on", { exact: true }).isChecked()));
   await visit.end();
 });
