@@ -173,6 +173,7 @@ export class App {
     dataset.calls = String(this.stage.renderer.info.render.calls);
     dataset.settled = String(this.loadedShare === 1 && !this.stage.restless && !this.mover.moving && !this.renderDue);
     dataset.ev100 = this.ev100.toFixed(3);
+    dataset.white = this.stage.display.whiteGains.map(g => g.toFixed(3)).join(",");
   }
 
   private moved(): void {

@@ -307,10 +307,7 @@ export class Stage {
   private async balance(): Promise<void> {
     const { whites } = this.home.display;
     if (whites.length === 0) return;
-    for (const pane of this.surfaces.panes) pane.visible = false;
-    const colour = this.display.lightColour(this.scene, this.camera); // drawn at once, read later
-    for (const pane of this.surfaces.panes) pane.visible = this.scale === null;
-    const gains = gainsFor(whites, await colour);
+    const gains = gainsFor(whites, await this.display.lightColour(this.scene, this.camera));
     if (gains && differ(gains, this.wantedGains ?? this.display.whiteGains)) this.wantedGains = gains;
   }
 

@@ -262,6 +262,7 @@ export const kSurfaceFragment = `
       float passes = mix(1.0, gloss.z * luminance(base.rgb) * kept, base.a);
       vec3 own = diffuse * (1.0 - gloss.z) + shine + emission.rgb;
       outColor = vec4(finish(own * base.a, lux), passes);
+      if (uLux) outColor = vec4(vec3(0.0), 1.0 - base.a); // hides what lies behind: that is lit otherwise
     #else
       // A probe asks how far things are, too.
       outColor = vec4(finish(diffuse + shine + emission.rgb, lux), 1.0);
