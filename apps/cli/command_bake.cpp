@@ -302,8 +302,8 @@ Registered addBake(CLI::App& program) {
   CLI::App* app = program.add_subcommand("bake", "Make a page in which a lit home is walked, every lamp on a dimmer");
   addSceneOptions(*app, *o, "HOME");
   app->add_option("-o,--output", o->output,
-                  "home.html: one page with everything inside; home.glb: geometry and light alone; a name without "
-                  "extension: a folder for a web server")
+                  "home.html: one page with everything inside; home.glb: glTF with a light map, for other "
+                  "programs; a name without extension: a folder for a web server")
       ->required();
   app->add_option("--quality", o->quality, listed("How much is done:", qualities()))->capture_default_str();
   app->add_option("--hours", o->hours,

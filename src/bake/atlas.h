@@ -16,7 +16,7 @@ constexpr int kMostAtlasEdge = 4096;  // texels: what graphics chips of old phon
 struct AtlasSettings {
   float texelM = 0.05f;
   int width = 2048;  // texels, a multiple of the tile
-  int tile = 32;     // texels; rooms begin with new rows of tiles
+  int tile = 32;     // texels; rooms begin with new rows of tiles, where that fits
   float vertexM = 0.02f;       // about so near to each other vertices of fine things share a texel,
   std::vector<float> coarser = {};  // times this, by instance; empty: 1
 };

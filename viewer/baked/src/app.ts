@@ -109,14 +109,14 @@ export class App {
     this.stage.setLight(this.light);
     this.nextFrame();
     this.refresh();
-    const factor = (i: number) => {
+    const isOn = (i: number) => {
       const layer = this.home.layers[i]!;
       return layer.kind === "lamp"
         ? this.light.dials[i]!.on
         : this.light[layer.kind].on && layer.hour === this.light.hour;
     };
     let shownMs = 0;
-    await loadLight(loaded, this.stage, factor, (layer, share) => {
+    await loadLight(loaded, this.stage, isOn, (layer, share) => {
       this.loadedShare = share;
       this.stage.include(layer);
       // Not after each of very many.

@@ -2,6 +2,7 @@
 import { blackBody } from "../../src/color.js";
 import { clamp, type Vec3 } from "../../src/vector.js";
 import type { Home, Layer } from "./document.js";
+import { luminance } from "./white_balance.js";
 
 export interface Dial {
   readonly on: boolean;
@@ -53,8 +54,6 @@ export function hourWeight(hours: readonly number[], baked: number | undefined, 
   if (held < baked) return before === undefined ? 0 : Math.max(0, (held - before) / (baked - before));
   return after === undefined ? 0 : Math.max(0, (after - held) / (after - baked));
 }
-
-const luminance = (c: Vec3): number => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 
 // From the colour of one temperature to that of another, at the same luminance of white.
 export function tint(fromKelvin: number, toKelvin: number): Vec3 {

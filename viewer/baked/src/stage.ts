@@ -104,7 +104,7 @@ export class Stage {
   }
 
   // What factors leave of the luminance of each layer.
-  private whole(factors: readonly Vec3[]): Vec3[] {
+  private luminanceShares(factors: readonly Vec3[]): Vec3[] {
     return factors.map(([r, g, b], i) => {
       const { color } = this.home.layers[i]!;
       const share = luminance([r * color[0], g * color[1], b * color[2]]) / luminance(color);
@@ -117,7 +117,7 @@ export class Stage {
     const factors = this.factors ?? [];
     if (!factors[layer]?.some(c => c > 0)) return;
     this.light.update(factors, layer);
-    this.lean?.update(this.whole(factors), layer);
+    this.lean?.update(this.luminanceShares(factors), layer);
     this.sky.update(factors, layer);
     this.probe.touch();
     this.scaleDue = this.meterDue = true;
@@ -128,7 +128,7 @@ export class Stage {
     if (sameFactors(this.factors, factors)) return;
     this.factors = factors;
     this.light.update(factors);
-    this.lean?.update(this.whole(factors));
+    this.lean?.update(this.luminanceShares(factors));
     this.sunlight.update(factors);
     this.sky.update(factors);
     this.surfaces.setFactors(factors);
