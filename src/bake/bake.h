@@ -41,8 +41,8 @@ struct BakedHome {
   BakeSettings settings;  // as they were for the budget
 };
 
-// Stages "simplify", "seen", "charts", those of lighting, "lamps", "sun mask", "sun", "sky", "exposure", "pack". Errors: nothing
-// can be seen; what glbOf() and lighting say.
+// Stages "simplify", "seen", "charts", those of lighting, "lamps", "sun mask", "sun", "sky", "exposure", "pack".
+// Errors: nothing can be seen; what glbOf() and lighting say.
 Result<BakedHome> bakeHome(const Scene& scene, const BakeWish& wish, const BakeSettings& settings, Stages& stages);
 
 }  // namespace roomlight::bake

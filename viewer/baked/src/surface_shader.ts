@@ -86,8 +86,8 @@ export const kSurfaceVertex = `
     gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
   }`;
 
-// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; LEAN; SUN_TILE; PROBE with
-// the sizes that three.js has for its filtered cube.
+// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; LEAN;
+// SUN_TILE; PROBE with the sizes that three.js has for its filtered cube.
 export const kSurfaceFragment = `
   precision highp float;
   precision highp int;

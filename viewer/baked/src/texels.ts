@@ -66,8 +66,8 @@ export function unpackTexels(
   return texels;
 }
 
-// Shares of light in tiles, made light: each channel as a part of blue, times the luminance of `light` in the same place.
-// Tiles where there is no light get none.
+// Shares of light in tiles, made light: each channel as a part of blue, times the luminance of `light` in the same
+// place. Tiles where there is no light get none.
 export function timesLuminance(
   shares: Uint32Array,
   tiles: readonly number[],
