@@ -14,11 +14,12 @@ export interface Maps {
 
 // In place of an image: one of those that are packed into one texture.
 export const kPacked = -1;
+const kGrey = 1.1; // channels of a colour differ by no more
 const kMostLists = 100; // before images are packed
 const kMostPacked = 256; // layers that every GPU can have
 
 export interface Batch {
-  readonly kind: "opaque" | "mask" | "pane";
+  readonly kind: "opaque" | "mask" | "pane" | "tinted"; // a pane that colours what is behind it
   readonly doubleSided: boolean;
   readonly maps: Maps;
   readonly normalScale: number;
@@ -99,6 +100,21 @@ export function isPane(material: Material | undefined): boolean {
   );
 }
 
+// Whether what passes a pane is coloured.
+function isTinted({
+  pbrMetallicRoughness: { baseColorFactor: rgba, baseColorTexture },
+  extensions,
+}: Material): boolean {
+  if (!((extensions.KHR_materials_transmission?.transmissionFactor ?? 0) > 0)) return false;
+  const [r, g, b] = rgba;
+  return baseColorTexture !== undefined || Math.max(r, g, b) > kGrey * Math.min(r, g, b);
+}
+
+function kindOf(material: Material | undefined): Batch["kind"] {
+  if (material && isPane(material)) return isTinted(material) ? "tinted" : "pane";
+  return material?.alphaMode === "MASK" ? "mask" : "opaque";
+}
+
 export function mapsOf(document: Gltf, material: Material | undefined): Maps {
   const image = (texture: { readonly index: number } | undefined) =>
     (texture && document.textures[texture.index]?.source) ?? null;
@@ -160,7 +176,7 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
     for (let vertex = first; vertex < first + count; ++vertex) tags[2 * vertex] = number;
     const material = document.materials[number];
     const of = {
-      kind: isPane(material) ? "pane" : material?.alphaMode === "MASK" ? "mask" : "opaque",
+      kind: kindOf(material),
       doubleSided: material?.doubleSided ?? false,
       maps: packedMaps(mapsOf(document, material), material !== undefined && packable(document, material), packed),
       normalScale: material?.normalTexture?.scale ?? 1,

@@ -86,7 +86,7 @@ export const kSurfaceVertex = `
     gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
   }`;
 
-// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; LEAN;
+// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE, TINT; LEAN;
 // SUN_TILE; PROBE with the sizes that three.js has for its filtered cube.
 export const kSurfaceFragment = `
   precision highp float;
@@ -259,10 +259,14 @@ export const kSurfaceFragment = `
     lux += straight;
     #ifdef PANE
       // Alpha of a colour: how much of a place is covered at all. What lies behind passes by that of the target.
-      float passes = mix(1.0, gloss.z * luminance(base.rgb) * kept, base.a);
-      vec3 own = diffuse * (1.0 - gloss.z) + shine + emission.rgb;
-      outColor = vec4(finish(own * base.a, lux), passes);
-      if (uLux) outColor = vec4(vec3(0.0), 1.0 - base.a); // hides what lies behind: that is lit otherwise
+      vec3 passes = mix(vec3(1.0), gloss.z * base.rgb * kept, base.a);
+      if (uLux) passes = vec3(1.0 - base.a); // hides what lies behind: that is lit otherwise
+      #ifdef TINT
+        outColor = vec4(passes, 1.0);
+      #else
+        vec3 own = diffuse * (1.0 - gloss.z) + shine + emission.rgb;
+        outColor = vec4(uLux ? vec3(0.0) : finish(own * base.a, lux), luminance(passes));
+      #endif
     #else
       // A probe asks how far things are, too.
       outColor = vec4(finish(diffuse + shine + emission.rgb, lux), 1.0);

@@ -65,18 +65,21 @@ export class Surfaces {
     for (const batch of geometry.batches) {
       const part = new THREE.BufferGeometry();
       for (const [name, attribute] of Object.entries(attributes)) part.setAttribute(name, attribute);
-      const pane = batch.kind === "pane";
+      const pane = batch.kind === "pane" || batch.kind === "tinted";
       const index = new THREE.BufferAttribute(pane ? batch.index.slice() : batch.index, 1);
       part.setIndex(index);
       if (pane) this.orders.push(new PaneOrder(batch.index, geometry.positions, index));
-      const mesh = new THREE.Mesh(part, this.material(batch, textures, geometry.colors !== null));
-      mesh.frustumCulled = false;
-      mesh.matrixAutoUpdate = false;
-      if (pane) {
-        mesh.renderOrder = 2;
-        this.panes.push(mesh);
+      // Blending has one factor for what is behind: colours take a pass of their own, before what the pane adds.
+      for (const pass of batch.kind === "tinted" ? (["tint", "add"] as const) : (["all"] as const)) {
+        const mesh = new THREE.Mesh(part, this.material(batch, textures, geometry.colors !== null, pass));
+        mesh.frustumCulled = false;
+        mesh.matrixAutoUpdate = false;
+        if (pane) {
+          mesh.renderOrder = 2;
+          this.panes.push(mesh);
+        }
+        this.group.add(mesh);
       }
-      this.group.add(mesh);
     }
   }
 
@@ -103,6 +106,7 @@ export class Surfaces {
     { kind, doubleSided, maps, normalScale }: Batch,
     textures: TextureSource,
     coloured: boolean,
+    pass: "all" | "tint" | "add",
   ): THREE.RawShaderMaterial {
     const uniforms: Uniforms = { ...this.uniforms, uNormalScale: { value: normalScale } };
     const defines: Record<string, string> = { ...this.defines };
@@ -119,7 +123,8 @@ export class Surfaces {
     use("roughness", "HAS_ROUGHNESS", "uRoughness", false);
     use("emission", "HAS_EMISSION", "uEmission", true);
     if (kind === "mask") defines.MASK = "";
-    if (kind === "pane") defines.PANE = "";
+    if (kind === "pane" || kind === "tinted") defines.PANE = "";
+    if (pass === "tint") defines.TINT = "";
     if (coloured) defines.HAS_COLOR = "";
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
@@ -128,13 +133,13 @@ export class Surfaces {
       uniforms,
       defines,
       side: doubleSided ? THREE.DoubleSide : THREE.FrontSide,
-      ...(kind === "pane"
+      ...(defines.PANE !== undefined
         ? {
             transparent: true,
             depthWrite: false,
             blending: THREE.CustomBlending,
-            blendSrc: THREE.OneFactor,
-            blendDst: THREE.SrcAlphaFactor,
+            blendSrc: pass === "tint" ? THREE.ZeroFactor : THREE.OneFactor,
+            blendDst: { all: THREE.SrcAlphaFactor, tint: THREE.SrcColorFactor, add: THREE.OneFactor }[pass],
             blendSrcAlpha: THREE.ZeroFactor,
             blendDstAlpha: THREE.OneFactor,
           }

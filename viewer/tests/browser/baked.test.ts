@@ -156,6 +156,16 @@ test("a mirror does not show what is before the wall that it faces", { skip }, a
   await visit.end();
 });
 
+test("coloured glass colours what is behind it", { skip }, async () => {
+  const passes: Vec3 = [0.9, 0.3, 0.15];
+  const link = writePage("glass", bakedHome({ glassShelf: passes }));
+  const visit = await opened(`${link}#eye=2,2.2,1.3,0,-89.9,60&ev=${kEv100}`);
+  const seen = await visit.color(320, 270); // the floor below
+  const expected = shown(kLampLux[0]!.map((c, i) => c * passes[i]!) as unknown as Vec3);
+  seen.forEach((c, i) => assert.ok(Math.abs(c - expected[i]!) < 0.015, `${seen} is not ${expected}`));
+  await visit.end();
+});
+
 test("a normal map turned to the bright wall has more light", { skip }, async () => {
   const floor = async (towards: number) => {
     const file = bakedHome({ brightWall: true, floorNormal: [0, towards, 0.8] });

@@ -34,6 +34,7 @@ interface Options {
   readonly lamps?: boolean;
   readonly glossy?: boolean; // a mirror of metal for a floor
   readonly shelf?: boolean; // over the floor, with five times the light: hides the foot of the wall from the middle
+  readonly glassShelf?: Vec3; // a shelf that passes so much of what is behind it
   readonly brightWall?: boolean; // the one at z = 0 has five times the light
   readonly display?: {
     readonly ev100: number;
@@ -195,7 +196,8 @@ export function bakedHome(options: Options = {}): Uint8Array {
     vertexLit = false,
     lamps = true,
     glossy = false,
-    shelf = false,
+    glassShelf,
+    shelf = glassShelf !== undefined,
     brightWall = false,
     sunPatch = false,
     floorNormal,
@@ -229,6 +231,14 @@ export function bakedHome(options: Options = {}): Uint8Array {
       mask: { bufferView: sunPatch ? binary.add(halfLit()) : 0, fine: kFine, channels: 1, tiles: [0] },
     },
   };
+  const glass = glassShelf && {
+    pbrMetallicRoughness: { baseColorFactor: [...glassShelf, 1], metallicFactor: 0, roughnessFactor: 0 },
+    extensions: {
+      KHR_materials_transmission: { transmissionFactor: 1 },
+      KHR_materials_specular: { specularFactor: 0 },
+    },
+  };
+  const rest = index.slice(6, glass ? -6 : undefined);
   const accessor = (bufferView: number, componentType: number, type: string, normalized = false, n = count) => ({
     bufferView,
     componentType,
@@ -242,8 +252,9 @@ export function bakedHome(options: Options = {}): Uint8Array {
     accessor(binary.add(Uint16Array.from(lightUvs)), 5123, "VEC2", true),
     accessor(binary.add(lit, 4), 5121, "SCALAR"),
     accessor(binary.add(Uint16Array.from(index.slice(0, 6))), 5123, "SCALAR", false, 6),
-    accessor(binary.add(Uint16Array.from(index.slice(6))), 5123, "SCALAR", false, index.length - 6),
+    accessor(binary.add(Uint16Array.from(rest)), 5123, "SCALAR", false, rest.length),
     accessor(binary.add(Float32Array.from(uvs)), 5126, "VEC2"),
+    ...(glass ? [accessor(binary.add(Uint16Array.from(index.slice(-6))), 5123, "SCALAR", false, 6)] : []),
   ];
   const layers = [
     ...(lamps
@@ -298,10 +309,11 @@ export function bakedHome(options: Options = {}): Uint8Array {
         primitives: [
           { attributes, indices: 4, material: glossy ? 1 : floorNormal ? 2 : 0 },
           { attributes, indices: 5, material: 0 },
+          ...(glass ? [{ attributes, indices: 7, material: floorNormal ? 3 : 2 }] : []),
         ],
       },
     ],
-    materials: [matt, mirror, ...(floorNormal ? [bumpy] : [])],
+    materials: [matt, mirror, ...(floorNormal ? [bumpy] : []), ...(glass ? [glass] : [])],
     ...normalMap,
     accessors,
     bufferViews: binary.views,
