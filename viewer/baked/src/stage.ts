@@ -280,7 +280,7 @@ export class Stage {
     if (!this.adapting) return;
     const step = Math.min(seconds, 0.1);
     if (this.exposing) this.setEv100(adapted(this.display.ev100, this.wantedEv100!, step));
-    if (this.balancing) this.display.whiteGains = followed(this.display.whiteGains, this.wantedGains!, step);
+    if (this.balancing) this.display.whiteGains = followed(this.display.whiteGains, this.wantedGains!, seconds);
     this.due = true;
     if (!this.adapting) this.meterDue = true; // what was too bright to be told is seen now
   }
@@ -308,7 +308,12 @@ export class Stage {
     const { whites } = this.home.display;
     if (whites.length === 0) return;
     const gains = gainsFor(whites, await this.display.lightColour(this.scene, this.camera));
-    if (gains && differ(gains, this.wantedGains ?? this.display.whiteGains)) this.wantedGains = gains;
+    if (!gains || !differ(gains, this.wantedGains ?? this.display.whiteGains)) return;
+    if (this.wantedGains === null) {
+      this.display.whiteGains = gains; // nobody has seen anything yet that it would jump from
+      this.due = true;
+    }
+    this.wantedGains = gains;
   }
 
   private aim(automatic: number | null, finished: boolean): void {

@@ -58,7 +58,7 @@ export function meanLight(shares: readonly (readonly [number, number])[], amount
 
 const kSeconds = 0.9; // that eyes take
 const kSame = 0.01; // of gains: what nobody sees
-const kReached = 0.003;
+const kReached = 0.005;
 const apart = (a: Vec3, b: Vec3): number => Math.max(...each(c => Math.abs(Math.log(a[c] / b[c]))));
 
 export const differ = (a: Vec3, b: Vec3): boolean => apart(a, b) > kSame;
