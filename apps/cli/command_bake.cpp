@@ -280,8 +280,8 @@ int workBake(const BakeOptions& o, const BakePlan& plan) {
   }
   settings.layers.kept.forget();
   const double bytes = static_cast<double>(writtenBytes(o, b));
-  display.line(
-      fmt::format("wrote {}: {:.1f} MB, {} layers of light on {} places", o.output, bytes / 1e6, b.layers, b.places));
+  display.line(fmt::format("wrote {}: {:.1f} MB, {} layer{} of light on {} places", o.output, bytes / 1e6, b.layers,
+                           b.layers == 1 ? "" : "s", b.places));
   tellBudget(plan, b, bytes, display);
   return kOk;
 }

@@ -91,7 +91,7 @@ export class App {
     this.mover.stand(linked.eye ?? (camera ? eyeOfCamera(camera) : this.firstEye(loaded)));
     addEventListener("resize", () => this.resize());
     addEventListener("hashchange", () => this.followLink());
-    this.canvas.addEventListener("keydown", event => this.shortcut(event));
+    addEventListener("keydown", event => this.shortcut(event));
     this.resize();
   }
 
@@ -165,7 +165,10 @@ export class App {
     if (!this.inVr && this.mover.update(seconds, this.controls.wish(seconds))) this.moved();
     const automaticBefore = this.ev100;
     const drawn = !this.inVr && this.stage.frame(nowMs, seconds);
-    if (drawn && this.drewLast && this.pace.took(seconds * 1000)) this.resize();
+    if (drawn && this.drewLast && this.pace.took(seconds * 1000)) {
+      this.resize();
+      this.stage.draw(); // a canvas of another size is black until then
+    }
     this.drewLast = drawn;
     if (Math.abs(automaticBefore - this.ev100) > 0.02) this.refresh();
     const { dataset } = this.canvas;
@@ -423,7 +426,8 @@ export class App {
     this.useLight(linked.light);
   }
   private shortcut(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const typing = event.target instanceof HTMLInputElement && event.target.type === "text";
+    if (event.ctrlKey || event.metaKey || event.altKey || event.repeat || typing) return;
     if (event.code === "KeyF") this.setFalseColours(!this.falseColours);
     else if (event.code === "KeyM") this.setMetering(!this.metering);
     else if (event.code === "KeyP") void this.savePicture();

@@ -5,6 +5,8 @@ import type { App } from "./app.js";
 import type { Layer } from "./document.js";
 import { hoursOf, kLeastKelvin, kMostKelvin, kMostLevel, type Dial } from "./light_state.js";
 
+const kKelvinStep = 50;
+
 type Change = (change: Partial<Dial>) => void;
 
 const number = (event: Event): number => Number((event.target as HTMLInputElement).value);
@@ -37,22 +39,25 @@ function levelSlider(app: App, name: string, dial: Dial, change: Change): Templa
   </div>`;
 }
 
+// Colours of files are of eight bits: 2700 K comes back as 2678.
+const rounded = (kelvin: number): number => kKelvinStep * Math.round(kelvin / kKelvinStep);
+
 function kelvinSlider(app: App, name: string, own: number, dial: Dial, change: Change): TemplateResult {
-  const kelvin = dial.kelvin ?? own;
+  const kelvin = dial.kelvin ?? rounded(own);
   return html`<div class="row">
     <input
       type="range"
       class="warmth"
       min=${kLeastKelvin}
       max=${kMostKelvin}
-      step="50"
+      step=${kKelvinStep}
       aria-label=${app.say("kelvin", name)}
       aria-valuetext="${Math.round(kelvin)} K"
       .value=${String(kelvin)}
       @input=${(e: Event) => change({ kelvin: number(e) })}
     /><output
       >${dial.kelvin === null
-        ? html`${Math.round(own)} K`
+        ? html`${rounded(own)} K`
         : html`<button class="link" title=${app.say("ownKelvin")} @click=${() => change({ kelvin: null })}>
             ${Math.round(kelvin)} K
           </button>`}</output

@@ -218,7 +218,7 @@ export class Stage {
     return drawn;
   }
 
-  private draw(): void {
+  draw(): void {
     this.due = false;
     this.pictures = 0;
     this.renderer.info.reset();
