@@ -72,14 +72,15 @@ const kAddFragment = `${kHead}${kDeveloped}
   void main() { outColor = vec4(developed(), uWeight); }`;
 const kAverageFragment = `${kHead}
   void main() { encoded(texture(uImage, vUv).rgb); }`;
-const kMeterFragment = `
+const kReadHead = `
   precision highp float;
   precision highp int;
   precision highp sampler2D;
   uniform sampler2D uImage;
   in vec2 vUv;
   out vec4 outColor;
-  ${kReadoutGlsl}
+  ${kReadoutGlsl}`;
+const kMeterFragment = `${kReadHead}
   void main() {
     vec2 size = vec2(${kMeterWidth}.0, ${kMeterHeight}.0);
     vec2 cell = floor(vUv * size);
@@ -93,14 +94,7 @@ const kMeterFragment = `
     outColor = readout(count > 0.0 ? exp2(sum / count) : 0.0);
   }`;
 // Red and green of light as shares of all channels, and its logarithm in two bytes.
-const kLightFragment = `
-  precision highp float;
-  precision highp int;
-  precision highp sampler2D;
-  uniform sampler2D uImage;
-  in vec2 vUv;
-  out vec4 outColor;
-  ${kReadoutGlsl}
+const kLightFragment = `${kReadHead}
   void main() {
     vec3 c = max(texture(uImage, vUv).rgb, 0.0);
     float sum = c.r + c.g + c.b;
