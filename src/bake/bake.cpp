@@ -10,6 +10,7 @@
 #include "bake/lit_places.h"
 #include "bake/page.h"
 #include "bake/simplify.h"
+#include "bake/smooth.h"
 #include "home/cameras.h"
 #include "look/display.h"
 
@@ -55,6 +56,7 @@ struct LaidOut {
   LitPlaces lit;  // on the home as it is
   std::vector<float> movedM;       // of each mesh
   std::vector<bool> buriedCells;   // for masks of suns; empty: there are none
+  Smoothing smoothing;
   SunCells sunCells() const { return {scene, atlas, lit, movedM, buriedCells}; }
 };
 
@@ -76,7 +78,9 @@ Result<LaidOut> layOut(const RayScene& home, bool sun, const BakeSettings& setti
     std::vector<bool> buried;
     if (sun) buried = buriedCells(rays, atlas.value(), lit, seen);
     putOnHome(lit, home, moved);
-    return LaidOut{std::move(scene), std::move(atlas.value()), std::move(lit), std::move(moved), std::move(buried)};
+    Smoothing smoothing(atlas.value(), rays);
+    return LaidOut{std::move(scene), std::move(atlas.value()), std::move(lit),
+                   std::move(moved), std::move(buried),        std::move(smoothing)};
   });
 }
 
@@ -124,7 +128,7 @@ void spread(const LaidOut& laid, std::vector<BakedLayer>& layers) {
     layer.lux = laid.lit.spread<Vec3>(layer.lux);
     layer.errorLux = laid.lit.spread<float>(layer.errorLux);
   }
-  smoothLayers(laid.atlas, layers);
+  laid.smoothing.smooth(laid.atlas, layers);
 }
 
 constexpr int kShownWidth = 320, kShownHeight = 180;

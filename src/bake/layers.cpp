@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "bake/meter_chunks.h"
 #include "base/hash.h"
-#include "base/parallel.h"
 #include "scene/scene_hash.h"
 
 namespace roomlight::bake {
@@ -16,11 +14,7 @@ namespace {
 constexpr float kWidestMaskedRad =
     0.035f;  // wider discs are partly below a surface's horizon where their middle is not
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-constexpr float kLeastLux = 1e-4f;    // a layer that gives nothing more is none
-constexpr int kReach = 3;           // neighbours that a pass of smoothing looks at, each way
-constexpr float kSpread = 1.8f;     // standard deviation of its weights, in neighbours
-constexpr float kDeviations = 1.6f;    // of the noise of two texels, up to which they count as the same
+constexpr float kLeastLux = 1e-4f;  // a layer that gives nothing more is none
 
 Scene withoutDaylight(Scene scene) {
   scene.suns.clear(), scene.sky = {};
@@ -185,47 +179,6 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
     if (!sun || givesLight(layer)) out.push_back(std::move(layer));
   }
   return out;
-}
-
-namespace {
-
-// One pass: neighbours `step` texels apart.
-void smoothOnce(const Atlas& atlas, const std::vector<uint32_t>& elementAt, int step, BakedLayer& layer) {
-  std::vector<Vec3> smooth = layer.lux;
-  std::vector<float> errors = layer.errorLux;
-  parallelFor(smooth.size(), 512, [&](size_t i) {
-    if (atlas.charts[atlas.chartOf[i]].chart.byVertices) return;
-    const int x = static_cast<int>(atlas.texels[i]) % atlas.width, y = static_cast<int>(atlas.texels[i]) / atlas.width;
-    Vec3 sum;
-    float weights = 0, squares = 0;
-    for (int dy = -kReach; dy <= kReach; ++dy) {
-      for (int dx = -kReach; dx <= kReach; ++dx) {
-        const int nx = x + dx * step, ny = y + dy * step;
-        if (nx < 0 || ny < 0 || nx >= atlas.width || ny >= atlas.height) continue;
-        const uint32_t j = elementAt[static_cast<size_t>(ny * atlas.width + nx)];
-        if (j == kNone || atlas.chartOf[j] != atlas.chartOf[i]) continue;
-        const float facing = dot(atlas.elements[i].normal, atlas.elements[j].normal);
-        const float apart = luminance(layer.lux[i]) - luminance(layer.lux[j]);
-        const float noise = layer.errorLux[i] * layer.errorLux[i] + layer.errorLux[j] * layer.errorLux[j];
-        const float near = static_cast<float>(dx * dx + dy * dy) / (2 * kSpread * kSpread);
-        const float same = apart * apart / std::max(kDeviations * kDeviations * 2 * noise, 1e-12f);
-        const float w = std::exp(-near - same) * std::max(facing, 0.0f);
-        sum += layer.lux[j] * w, weights += w, squares += w * w * layer.errorLux[j] * layer.errorLux[j];
-      }
-    }
-    if (weights > 0) smooth[i] = sum / weights, errors[i] = std::sqrt(squares) / weights;
-  });
-  layer.lux = std::move(smooth), layer.errorLux = std::move(errors);
-}
-
-}  // namespace
-
-void smoothLayers(const Atlas& atlas, std::vector<BakedLayer>& layers) {
-  std::vector<uint32_t> elementAt(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNone);
-  for (size_t i = 0; i < atlas.texels.size(); ++i) elementAt[atlas.texels[i]] = static_cast<uint32_t>(i);
-  for (BakedLayer& layer : layers) {
-    for (const int step : {1, 2}) smoothOnce(atlas, elementAt, step, layer);
-  }
 }
 
 }  // namespace roomlight::bake

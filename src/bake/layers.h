@@ -57,9 +57,4 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& scene, double hour,
                                                const std::vector<SurfaceElement>& elements, const SunCells& cells,
                                                const LayerSettings& settings, Stages& stages);
 
-// Takes noise from the layers: a mean over neighbours of one chart whose light is the same up to what their errors
-// explain, in two passes, the second with gaps (à-trous: Dammertz et al. 2010). Does not depend on the number of
-// threads.
-void smoothLayers(const Atlas& atlas, std::vector<BakedLayer>& layers);
-
 }  // namespace roomlight::bake

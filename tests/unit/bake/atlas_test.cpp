@@ -5,20 +5,10 @@
 #include <set>
 
 #include "support/rooms.h"
+#include "unit/bake/atlas_of_all.h"
 
 namespace roomlight::bake {
 namespace {
-
-Atlas atlasOfAll(const Scene& scene, const AtlasSettings& settings = {}) {
-  SeenSides seen(scene);
-  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    for (uint32_t t = 0; t < scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); ++t)
-      seen.mark(i, t, false);
-  }
-  ChartSettings charts;
-  charts.texelM = settings.texelM;
-  return atlasOf(scene, chartsOf(scene, seen, charts), settings).value();
-}
 
 Scene room() {
   Scene scene;

@@ -8,6 +8,7 @@
 
 #include "bake/light_texels.h"
 #include "bake/lit_places.h"
+#include "bake/smooth.h"
 #include "base/parallel.h"
 #include "import/import.h"
 #include "support/rooms.h"
@@ -93,7 +94,7 @@ TEST_F(Bake, aFurnaceIsEvenEverywhereAfterSmoothing) {
   };
   ASSERT_GT(sums.size(), 1000u);
   const double before = deviation();
-  smoothLayers(atlas, layers);
+  Smoothing(atlas, rays).smooth(atlas, layers);
   const double after = deviation();
   EXPECT_LT(after, 0.03);
   EXPECT_LT(after, 0.6 * before);
