@@ -7,8 +7,9 @@ namespace roomlight::bake {
 namespace {
 
 constexpr float kAlike = 0.9f;          // cosine between normals of two charts where one goes on as the other
+constexpr float kAlikeHere = 0.995f;    // where both have the same place
 constexpr float kAlikeCharts = 0.6f;    // between those of the charts, which may bend
-constexpr float kOffSurfaceM = 0.005f;  // that the other may lie off an arc through both places
+constexpr float kOffSurfaceM = 0.001f;  // that the other may lie off an arc through both places
 constexpr float kNearTexels = 0.75f;    // from where a texel of the other is looked for to its place
 constexpr float kTouchTexels = 0.45f;   // from the edge of a chart to a place that it reaches
 constexpr float kLeastLiftM = 0.005f, kLift = 0.1f;  // of rays off the surface: of their length
@@ -72,9 +73,9 @@ uint32_t Seams::elementOf(uint32_t chart, int column, int row) const {
   return found != kNoElement && atlas_.chartOf[found] == chart ? found : kNoElement;
 }
 
-bool Seams::goesOn(const SurfaceElement& a, const SurfaceElement& b) const {
+bool Seams::goesOn(const SurfaceElement& a, const SurfaceElement& b, float alike) const {
   const Vec3 d = b.position - a.position;
-  if (dot(a.normal, b.normal) < kAlike || std::abs(dot(d, a.normal + b.normal)) > 2 * kOffSurfaceM) return false;
+  if (dot(a.normal, b.normal) < alike || std::abs(dot(d, a.normal + b.normal)) > 2 * kOffSurfaceM) return false;
   const float lift = std::max(kLeastLiftM, kLift * length(d));
   const Vec3 from = a.position + a.normal * lift, to = b.position + b.normal * lift;
   return luminance(rays_.transmittance({from, to - from, 0, 1})) > 0;
@@ -92,7 +93,7 @@ uint32_t Seams::beyond(size_t element, Vec2 texels) const {
         elementOf(other, static_cast<int>(std::floor(at.x + 0.5f)), static_cast<int>(std::floor(at.y + 0.5f)));
     if (found == kNoElement) continue;
     const SurfaceElement& to = atlas_.elements[found];
-    if (length(to.position - p) <= kNearTexels * texelM(atlas_.charts[other]) && goesOn(from, to)) return found;
+    if (length(to.position - p) <= kNearTexels * texelM(atlas_.charts[other]) && goesOn(from, to, kAlike)) return found;
   }
   return kNoElement;
 }
@@ -116,7 +117,7 @@ std::vector<std::pair<uint32_t, float>> Seams::at(size_t element) const {
                                               {x0, y0 + 1, (1 - fx) * fy},
                                               {x0 + 1, y0 + 1, fx * fy}}) {
       const uint32_t found = elementOf(other, column, row);
-      if (weight < 1e-3f || found == kNoElement || !goesOn(here, atlas_.elements[found])) continue;
+      if (weight < 1e-3f || found == kNoElement || !goesOn(here, atlas_.elements[found], kAlikeHere)) continue;
       out.emplace_back(found, weight), sum += weight;
     }
     for (size_t k = first; k < out.size(); ++k) out[k].second /= sum;

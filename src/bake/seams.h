@@ -35,7 +35,8 @@ class Seams {
   // Of a chart: where a place lies on its grid, (0, 0) being the middle of its first texel, and what is there.
   static Vec2 onGrid(const PlacedChart& placed, Vec3 p);
   uint32_t elementOf(uint32_t chart, int column, int row) const;
-  bool goesOn(const SurfaceElement& from, const SurfaceElement& to) const;
+  // Whether both lie on an arc, with normals as alike (cosine), and nothing stands on it between them.
+  bool goesOn(const SurfaceElement& from, const SurfaceElement& to, float alike) const;
 
   const Atlas& atlas_;
   const std::span<const uint32_t> elementAt_;

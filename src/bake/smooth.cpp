@@ -15,6 +15,7 @@ constexpr int kReach = 3, kAcross = 2 * kReach + 1;  // neighbours, each way and
 constexpr std::array kSteps{1, 2};                   // texels between neighbours, by pass
 constexpr float kSpread = 1.8f;                      // standard deviation of weights, in neighbours
 constexpr float kDeviations = 1.6f;  // of the noise of two texels, up to which they count as the same
+constexpr float kMostOff = 0.1f;  // that the light of one side of an edge may be off the mean, of the sum of these
 
 using Square = std::array<uint32_t, static_cast<size_t>(kAcross* kAcross)>;  // elements, in rows
 
@@ -63,14 +64,16 @@ void smoothOnce(const Atlas& atlas, std::span<const uint32_t> elementAt, const S
   layer.lux = std::move(smooth), layer.errorLux = std::move(errors);
 }
 
-// Both sides of an edge get the mean of both.
+// Both sides of an edge get the mean of both, unless that is so far off that something must part them.
 void weld(const Smoothing::Others<float>& welds, BakedLayer& layer) {
   std::vector<Vec3> welded = layer.lux;
   parallelFor(welded.size(), 512, [&](size_t i) {
+    Vec3 sum = layer.lux[i];
     float weights = 1;
     for (size_t k = welds.first[i]; k < welds.first[i + 1]; ++k)
-      welded[i] += layer.lux[welds.of[k].first] * welds.of[k].second, weights += welds.of[k].second;
-    welded[i] = welded[i] / weights;
+      sum += layer.lux[welds.of[k].first] * welds.of[k].second, weights += welds.of[k].second;
+    const float own = luminance(layer.lux[i]), mean = luminance(sum) / weights;
+    if (std::abs(mean - own) <= kMostOff * (mean + own)) welded[i] = sum / weights;
   });
   layer.lux = std::move(welded);
 }
