@@ -78,7 +78,7 @@ Result<LaidOut> layOut(const RayScene& home, bool sun, const BakeSettings& setti
     std::vector<bool> buried;
     if (sun) buried = buriedCells(rays, atlas.value(), lit, seen);
     putOnHome(lit, home, moved);
-    Smoothing smoothing(atlas.value(), rays);
+    Smoothing smoothing(atlas.value(), lit.buried, rays);
     return LaidOut{std::move(scene), std::move(atlas.value()), std::move(lit),
                    std::move(moved), std::move(buried),        std::move(smoothing)};
   });

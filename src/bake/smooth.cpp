@@ -15,7 +15,8 @@ constexpr int kReach = 3, kAcross = 2 * kReach + 1;  // neighbours, each way and
 constexpr std::array kSteps{1, 2};                   // texels between neighbours, by pass
 constexpr float kSpread = 1.8f;                      // standard deviation of weights, in neighbours
 constexpr float kDeviations = 1.6f;  // of the noise of two texels, up to which they count as the same
-constexpr float kMostOff = 0.1f;  // that the light of one side of an edge may be off the mean, of the sum of these
+constexpr float kOneSided = 0.1f;   // what a neighbour counts that has none on the opposite side
+constexpr float kMostStep = 0.2f;    // between the light of both sides of an edge, of the sum of both
 
 using Square = std::array<uint32_t, static_cast<size_t>(kAcross* kAcross)>;  // elements, in rows
 
@@ -50,13 +51,14 @@ void smoothOnce(const Atlas& atlas, std::span<const uint32_t> elementAt, const S
     float weights = 0, squares = 0;
     for (size_t k = 0; k < square.size(); ++k) {
       const uint32_t j = square[k];
-      if (j == kNoElement || square[square.size() - 1 - k] == kNoElement) continue;
+      if (j == kNoElement) continue;
       const float facing = dot(atlas.elements[i].normal, atlas.elements[j].normal);
       const float apart = luminance(layer.lux[i]) - luminance(layer.lux[j]);
       const float noise = layer.errorLux[i] * layer.errorLux[i] + layer.errorLux[j] * layer.errorLux[j];
       const float near = static_cast<float>(alongX(k) * alongX(k) + alongY(k) * alongY(k)) / (2 * kSpread * kSpread);
       const float same = apart * apart / std::max(kDeviations * kDeviations * 2 * noise, 1e-12f);
-      const float w = std::exp(-near - same) * std::max(facing, 0.0f);
+      const float paired = square[square.size() - 1 - k] == kNoElement ? kOneSided : 1;
+      const float w = std::exp(-near - same) * std::max(facing, 0.0f) * paired;
       sum += layer.lux[j] * w, weights += w, squares += w * w * layer.errorLux[j] * layer.errorLux[j];
     }
     if (weights > 0) smooth[i] = sum / weights, errors[i] = std::sqrt(squares) / weights;
@@ -64,29 +66,37 @@ void smoothOnce(const Atlas& atlas, std::span<const uint32_t> elementAt, const S
   layer.lux = std::move(smooth), layer.errorLux = std::move(errors);
 }
 
-// Both sides of an edge get the mean of both, unless that is so far off that something must part them.
+// Both sides of an edge get the mean of both.
 void weld(const Smoothing::Others<float>& welds, BakedLayer& layer) {
   std::vector<Vec3> welded = layer.lux;
   parallelFor(welded.size(), 512, [&](size_t i) {
-    Vec3 sum = layer.lux[i];
-    float weights = 1;
+    if (welds.first[i] == welds.first[i + 1]) return;
+    Vec3 other;
     for (size_t k = welds.first[i]; k < welds.first[i + 1]; ++k)
-      sum += layer.lux[welds.of[k].first] * welds.of[k].second, weights += welds.of[k].second;
-    const float own = luminance(layer.lux[i]), mean = luminance(sum) / weights;
-    if (std::abs(mean - own) <= kMostOff * (mean + own)) welded[i] = sum / weights;
+      other += layer.lux[welds.of[k].first] * welds.of[k].second;
+    const float here = luminance(layer.lux[i]), there = luminance(other);
+    if (std::abs(here - there) <= kMostStep * (here + there)) welded[i] = (layer.lux[i] + other) * 0.5f;
   });
   layer.lux = std::move(welded);
 }
 
+// Of all others at one place the mean.
+std::vector<std::pair<uint32_t, float>> meanOf(const std::vector<std::vector<std::pair<uint32_t, float>>>& charts) {
+  std::vector<std::pair<uint32_t, float>> out;
+  for (const auto& chart : charts) {
+    for (const auto& [element, weight] : chart) out.emplace_back(element, weight / static_cast<float>(charts.size()));
+  }
+  return out;
+}
+
 }  // namespace
 
-Smoothing::Smoothing(const Atlas& atlas, const RayScene& rays) {
+Smoothing::Smoothing(const Atlas& atlas, std::span<const uint8_t> buried, const RayScene& rays) {
   const std::vector<uint32_t> elementAt = elementsByTexel(atlas);
-  const Seams seams(atlas, elementAt, rays, static_cast<float>(kReach * kSteps.back()));
+  const Seams seams(atlas, elementAt, buried, rays);
   const size_t count = atlas.elements.size();
   for (const int step : kSteps) {
     std::vector<std::vector<std::pair<uint32_t, uint8_t>>> beyond(count);
-    std::vector<std::vector<std::pair<uint32_t, float>>> welds(step == 1 ? count : 0);
     parallelFor(count, 256, [&](size_t i) {
       if (!seams.any(i)) return;
       const Square square = squareAround(atlas, elementAt, i, step);
@@ -96,12 +106,15 @@ Smoothing::Smoothing(const Atlas& atlas, const RayScene& rays) {
         const uint32_t j = seams.beyond(i, texels);
         if (j != kNoElement) beyond[i].emplace_back(j, static_cast<uint8_t>(k));
       }
-      if (step == 1 && !beyond[i].empty()) welds[i] = seams.at(i);
     });
     passes_.push_back({step, {}});
     for (const auto& of : beyond) passes_.back().beyond.add(of);
-    for (const auto& of : welds) welds_.add(of);
   }
+  std::vector<std::vector<std::pair<uint32_t, float>>> welds(count);
+  parallelFor(count, 256, [&](size_t i) {
+    if (seams.any(i)) welds[i] = meanOf(seams.at(i));
+  });
+  for (const auto& of : welds) welds_.add(of);
 }
 
 void Smoothing::smooth(const Atlas& atlas, std::vector<BakedLayer>& layers) const {

@@ -94,7 +94,7 @@ TEST_F(Bake, aFurnaceIsEvenEverywhereAfterSmoothing) {
   };
   ASSERT_GT(sums.size(), 1000u);
   const double before = deviation();
-  Smoothing(atlas, rays).smooth(atlas, layers);
+  Smoothing(atlas, lit.buried, rays).smooth(atlas, layers);
   const double after = deviation();
   EXPECT_LT(after, 0.03);
   EXPECT_LT(after, 0.6 * before);
