@@ -199,6 +199,12 @@ Layout layoutOf(const Scene& scene, const std::vector<Chart>& charts, const Atla
 
 }  // namespace
 
+std::vector<uint32_t> elementsByTexel(const Atlas& atlas) {
+  std::vector<uint32_t> out(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNoElement);
+  for (size_t i = 0; i < atlas.texels.size(); ++i) out[atlas.texels[i]] = static_cast<uint32_t>(i);
+  return out;
+}
+
 Result<Atlas> atlasOf(const Scene& scene, std::vector<Chart> charts, AtlasSettings settings) {
   bool apart = true;
   Layout layout = layoutOf(scene, charts, settings, apart);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "bake/chart_texels.h"
@@ -44,6 +45,10 @@ struct Atlas {
   // Texels beside those that repeat the light of an element, against what lies beyond a chart's edge: (texel, element).
   std::vector<std::pair<uint32_t, uint32_t>> padding;
 };
+
+constexpr uint32_t kNoElement = std::numeric_limits<uint32_t>::max();
+// The element of each texel of an atlas, in rows.
+std::vector<uint32_t> elementsByTexel(const Atlas& atlas);
 
 // Lays the charts out, those in one room together. Where that would be higher than kMostAtlasEdge, the atlas is as wide
 // as that, and texels are longer. Errors: vertices alone are too many.

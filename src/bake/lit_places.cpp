@@ -13,7 +13,6 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr int kRaysEach = 16, kRaysInDoubt = 64, kFewOpen = 4;
 constexpr float kOpenShare = 0.08f;    // of what a place sees, that can be seen from a room, at least
 constexpr float kCoverM = 0.04f;       // what nobody sees and is so near covers a place, as a picture does the wall,
@@ -21,14 +20,14 @@ constexpr float kCoveredShare = 0.7f;  // if more of its rays than this end ther
 constexpr float kSteps = 1.5f;       // of a component of normals that share a place, each way from zero
 constexpr float kFacing = 0.3f;  // cosine between the normals of a vertex and of a place that lights it, at least
 
-// For each element of a chart by texels the nearest one of it, along texels, that is not buried; kNone: there is none.
+// For each element of a chart by texels the nearest one of it, along texels, that is not buried; kNoElement: there is
+// none.
 std::vector<uint32_t> nearestOpen(const Atlas& atlas, const std::vector<uint8_t>& buried) {
   const size_t n = atlas.elements.size();
-  std::vector<uint32_t> nearest(n, kNone),
-      elementAt(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNone);
+  const std::vector<uint32_t> elementAt = elementsByTexel(atlas);
+  std::vector<uint32_t> nearest(n, kNoElement);
   std::vector<uint32_t> ring;
   for (uint32_t i = 0; i < n; ++i) {
-    elementAt[atlas.texels[i]] = i;
     if (!buried[i]) nearest[i] = i, ring.push_back(i);
   }
   const int64_t w = atlas.width;
@@ -38,7 +37,7 @@ std::vector<uint32_t> nearestOpen(const Atlas& atlas, const std::vector<uint8_t>
       const int64_t texel = static_cast<int64_t>(atlas.texels[i]) + step;
       if (texel < 0 || texel >= static_cast<int64_t>(elementAt.size())) continue;
       const uint32_t next = elementAt[static_cast<size_t>(texel)];
-      if (next == kNone || nearest[next] != kNone || atlas.chartOf[next] != atlas.chartOf[i]) continue;
+      if (next == kNoElement || nearest[next] != kNoElement || atlas.chartOf[next] != atlas.chartOf[i]) continue;
       nearest[next] = nearest[i], ring.push_back(next);
     }
   }
@@ -157,7 +156,7 @@ LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides&
   const std::vector<uint32_t> open = nearestOpen(atlas, buried);
   LitPlaces out;
   out.ofElement.resize(n);
-  std::vector<uint32_t> placeOf(n, kNone);
+  std::vector<uint32_t> placeOf(n, kNoElement);
   for (size_t first = 0; first < n;) {
     size_t end = first;
     while (end < n && atlas.chartOf[end] == atlas.chartOf[first]) ++end;
@@ -173,11 +172,11 @@ LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides&
       });
     } else {
       for (size_t i = first; i < end; ++i) {
-        if (open[i] != i && open[i] != kNone) continue;
+        if (open[i] != i && open[i] != kNoElement) continue;
         placeOf[i] = static_cast<uint32_t>(out.places.size());
         out.places.push_back(atlas.elements[i]);
       }
-      for (size_t i = first; i < end; ++i) out.ofElement[i] = {{placeOf[open[i] == kNone ? i : open[i]]}, {1}};
+      for (size_t i = first; i < end; ++i) out.ofElement[i] = {{placeOf[open[i] == kNoElement ? i : open[i]]}, {1}};
     }
     const Chart& chart = atlas.charts[atlas.chartOf[first]].chart;
     out.sides.resize(out.places.size(), {chart.instance, chart.back, chart.byVertices, atlas.chartOf[first]});

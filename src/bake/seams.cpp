@@ -26,12 +26,6 @@ bool overlap(const Bounds3& a, const Bounds3& b) {
 
 }  // namespace
 
-std::vector<uint32_t> elementsByTexel(const Atlas& atlas) {
-  std::vector<uint32_t> out(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNoElement);
-  for (size_t i = 0; i < atlas.texels.size(); ++i) out[atlas.texels[i]] = static_cast<uint32_t>(i);
-  return out;
-}
-
 Seams::Seams(const Atlas& atlas, std::span<const uint32_t> elementAt, std::span<const uint8_t> buried,
              const RayScene& rays)
     : atlas_(atlas), elementAt_(elementAt), buried_(buried), rays_(rays), touching_(atlas.charts.size()) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,11 +10,6 @@
 #include "trace/ray_scene.h"
 
 namespace roomlight::bake {
-
-constexpr uint32_t kNoElement = std::numeric_limits<uint32_t>::max();
-
-// The element of each texel of an atlas, in rows.
-std::vector<uint32_t> elementsByTexel(const Atlas& atlas);
 
 // Refers to the atlas and to the scene that it is of. What is buried (LitPlaces) goes nowhere: its light is that of
 // another place.

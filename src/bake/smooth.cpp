@@ -15,7 +15,7 @@ constexpr int kReach = 3, kAcross = 2 * kReach + 1;  // neighbours, each way and
 constexpr std::array kSteps{1, 2};                   // texels between neighbours, by pass
 constexpr float kSpread = 1.8f;                      // standard deviation of weights, in neighbours
 constexpr float kDeviations = 1.6f;  // of the noise of two texels, up to which they count as the same
-constexpr float kOneSided = 0.1f;   // what a neighbour counts that has none on the opposite side
+constexpr float kOneSided = 0.1f;    // what a neighbour counts that has none on the opposite side
 constexpr float kMostStep = 0.2f;    // between the light of both sides of an edge, of the sum of both
 
 using Square = std::array<uint32_t, static_cast<size_t>(kAcross* kAcross)>;  // elements, in rows
