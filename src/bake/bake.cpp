@@ -177,11 +177,15 @@ void markOff(std::vector<BakedLayer>& layers) {
   }
 }
 
+// Links a slot, times those of a picture: all places share the light that they find, and what chance does to it.
+constexpr int kMoreLinks = 4;
+
 }  // namespace
 
 Result<BakeSettings> bakeSettings(const std::string& quality) {
   BakeSettings s;
   if (const Status status = applyQuality(quality, s.layers.render); !status) return Error{status.error()};
+  s.layers.render.radiance.links *= kMoreLinks;
   if (quality == "draft")
     s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.002f, s.layers.meters.tolerance = 0.4;
   if (quality == "best")

@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kLongestFootprintM = 0.3f;  // over which a texel's direct light is averaged
 constexpr float kTypical = 0.985f;  // cosine between the normal of a place and the mean of its texel's: 10°
+constexpr float kStripTexels = 2.5f;  // as wide: each texel is at an edge or beside one
 constexpr float kAlike = 0.9962f;   // between normals and that of their chart: 5°
 
 Vec2 nearestOnEdge(Vec2 p, Vec2 a, Vec2 b) {
@@ -84,12 +85,24 @@ ChartTexels::ChartTexels(const ChartSurface& surface, const Chart& chart, const 
     : surface_(surface),
       chart_(chart),
       grid_(grid),
+      widthM_(chart.areaM2 / std::max({chart.sizeM.x, chart.sizeM.y, 1e-6f})),
       fine_(fine),
       width_((grid.width + 2 * kGap) * fine),
       height_((grid.height + 2 * kGap) * fine),
       reachTexels_(reachTexels),
       nearest_(static_cast<size_t>(width_) * static_cast<size_t>(height_)) {
   for (const uint32_t t : chart.triangles) cover(t);
+  if (widthM_ * std::min(grid.perM.x, grid.perM.y) > kStripTexels) return;
+  std::vector<std::array<Vec2, 3>> triangles;
+  for (const uint32_t t : chart.triangles) triangles.push_back(onPlane(t));
+  border_ = ChartBorder(triangles);
+}
+
+std::array<Vec2, 3> ChartTexels::onPlane(uint32_t triangle) const {
+  std::array<Vec2, 3> out;
+  const std::array<Vec3, 3> p = surface_.placesOf(surface_.cornersOf(triangle));
+  for (size_t k = 0; k < 3; ++k) out[k] = {dot(p[k], chart_.alongU), dot(p[k], chart_.alongV)};
+  return out;
 }
 
 float ChartTexels::distanceTexels(size_t cell) const {
@@ -126,13 +139,29 @@ void ChartTexels::cover(uint32_t triangle) {
   }
 }
 
+// Where it is on a strip's edge, the place of the strip nearest to what is so far off.
+ChartTexels::Corner ChartTexels::insetAt(size_t cell, OffEdge off) const {
+  const Corner at = nearest_[cell];
+  const std::array<Vec2, 3> c = onPlane(at.triangle);
+  const Vec2 place = c[0] * (1 - at.b1 - at.b2) + c[1] * at.b1 + c[2] * at.b2,
+             moved = border_.inset(place, std::min(off.distanceM, off.share * widthM_));
+  if (!(square(moved - place) > 0)) return at;
+  Corner best;
+  for (const uint32_t t : chart_.triangles) {
+    const Nearest here = nearestIn(onPlane(t), moved);
+    if (here.distance2 < best.distance2) best = {t, here.distance2, here.b1, here.b2};
+  }
+  return best;
+}
+
 SurfaceElement ChartTexels::element(size_t cell, OffEdge off) const {
-  const Corner& at = nearest_[cell];
+  const bool strip = !border_.empty();
+  const Corner at = strip ? insetAt(cell, off) : nearest_[cell];
   const std::array<Vec3, 3> p = surface_.placesOf(surface_.cornersOf(at.triangle));
   const Vec3 place = p[0] * (1 - at.b1 - at.b2) + p[1] * at.b1 + p[2] * at.b2;
   const float edgeM = std::min(
       kLongestFootprintM, 1 / (std::sqrt(std::max(grid_.perM.x * grid_.perM.y, 1e-6f)) * static_cast<float>(fine_)));
-  return {offEdge(place, (p[0] + p[1] + p[2]) / 3, off),
+  return {strip ? place : offEdge(place, (p[0] + p[1] + p[2]) / 3, off),
           surface_.normalAt(at.triangle, ChartSurface::geometricNormal(p), at.b1, at.b2), edgeM};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bake/chart_border.h"
 #include "bake/charts.h"
 #include "trace/meter.h"
 
@@ -56,7 +57,8 @@ class ChartTexels {
   // From the middle of a cell to the nearest place of the chart, in texels; infinite where that is out of reach.
   float distanceTexels(size_t cell) const;
   bool onTriangle(size_t cell) const { return nearest_[cell].triangle != kNone; }
-  // That place. Needs onTriangle().
+  // That place, `off` the chart's edges. Needs onTriangle(). Triangles of strips may be a hundred times as long as
+  // wide: there it moves across the strip, else towards the middle of the triangle.
   SurfaceElement element(size_t cell, OffEdge off) const;
   bool covers(size_t cell) const { return nearest_[cell].distance2 <= 0; }  // the middle of a cell
   // A place of the world in texels from the upper left of the gap; (0, 0) is the middle of a texel.
@@ -69,11 +71,15 @@ class ChartTexels {
     float distance2 = kInfinity, b1 = 0, b2 = 0;
   };
   void cover(uint32_t triangle);
+  std::array<Vec2, 3> onPlane(uint32_t triangle) const;  // m along the chart's axes
+  Corner insetAt(size_t cell, OffEdge off) const;
   float inCells(float texels) const { return (texels + 0.5f) * static_cast<float>(fine_) - 0.5f; }
 
   const ChartSurface& surface_;
   const Chart& chart_;
   const ChartGrid grid_;
+  const float widthM_;  // mean
+  ChartBorder border_;  // of strips
   const int fine_, width_, height_;
   const float reachTexels_;
   std::vector<Corner> nearest_;  // distances in cells

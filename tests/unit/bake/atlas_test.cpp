@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "support/rooms.h"
@@ -68,6 +69,18 @@ TEST(Atlas, elementsFaceTheLitSideAndAreOffTheEdges) {
     EXPECT_GT(dot(e.normal, chart.normal), 0.8f);
     const Vec3 outside = max(max(-e.position, e.position - Vec3(4, 2.5f, 3)), Vec3(0));
     EXPECT_LT(maxComponent(outside), 1e-6f);
+  }
+}
+
+// Its two triangles are fifty times as long as wide.
+TEST(Atlas, placesOfASkirtingBoardKeepOffItsEdges) {
+  Scene scene;
+  addRectangle(scene, {0, 0, 0}, {4, 0, 0}, {0, 0.08f, 0}, addMaterial(scene, lambertian(0.5f)));
+  const Atlas atlas = atlasOfAll(scene);
+  ASSERT_FALSE(atlas.elements.empty());
+  for (const SurfaceElement& e : atlas.elements) {
+    EXPECT_GT(std::min(e.position.y, 0.08f - e.position.y), 0.0098f) << e.position.x;
+    EXPECT_GT(std::min(e.position.x, 4 - e.position.x), 0.0098f) << e.position.y;
   }
 }
 
