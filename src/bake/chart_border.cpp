@@ -8,7 +8,9 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr int kCorner = 3;  // edges that a place is moved off, one after the other
+constexpr int kCorner = 3;        // edges that a place is moved off, one after the other
+constexpr float kRoundingM = 1e-5f;  // that a place on an edge may be outside of it
+constexpr float kEnough = 0.99f;     // of the way
 
 float dot2(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 
@@ -29,13 +31,20 @@ ChartBorder::ChartBorder(std::span<const std::array<Vec2, 3>> triangles) {
       side.a = a, side.b = b, side.opposite = corners[(k + 2) % 3], ++side.triangles;
     }
   }
+  double area = 0, around = 0;
+  for (const auto& c : triangles) {
+    const Vec2 a = c[1] - c[0], b = c[2] - c[0];
+    area += std::abs(static_cast<double>(a.x * b.y - a.y * b.x)) / 2;
+  }
   for (const auto& [corners, side] : sides) {
     const Vec2 d = side.b - side.a;
     const float length = std::sqrt(dot2(d, d));
     if (side.triangles != 1 || !(length > 0)) continue;
     const Vec2 along = d * (1 / length), left{-along.y, along.x};
     edges_.push_back({side.a, along, dot2(side.opposite - side.a, left) < 0 ? left * -1.0f : left, length});
+    around += static_cast<double>(length);
   }
+  widthM_ = around > 0 ? static_cast<float>(2 * area / around) : kInfinity;
 }
 
 Vec2 ChartBorder::inset(Vec2 place, float byM) const {
@@ -45,10 +54,10 @@ Vec2 ChartBorder::inset(Vec2 place, float byM) const {
     for (const Edge& e : edges_) {
       const Vec2 d = place - e.from;
       const float at = dot2(d, e.along), off = dot2(d, e.inwards);
-      if (at < -byM || at > e.length + byM || off < -byM || off >= least) continue;
+      if (at < -byM || at > e.length + byM || off < -kRoundingM || off >= least) continue;
       nearest = &e, least = off;
     }
-    if (!nearest || byM - least < 0.01f * byM) break;
+    if (!nearest || least > kEnough * byM) break;
     place = place + nearest->inwards * (byM - least);
   }
   return place;

@@ -16,8 +16,10 @@ class ChartBorder {
   // Triangles as the plane has them, m along its axes; those that share an edge have the same corners there.
   explicit ChartBorder(std::span<const std::array<Vec2, 3>> triangles);
   bool empty() const { return edges_.empty(); }
-  // A place of the plane, moved inwards across the border's edges until it is `byM` off
-  // them, as far as the chart is wide enough.
+  // The mean width, as of a band along half of the border.
+  float widthM() const { return widthM_; }
+  // A place of the chart, moved inwards across the border's edges that it is less than `byM` off, until it is. Where
+  // the chart is narrower it may come to lie outside.
   Vec2 inset(Vec2 place, float byM) const;
 
  private:
@@ -26,6 +28,7 @@ class ChartBorder {
     float length;
   };
   std::vector<Edge> edges_;  // of one triangle alone
+  float widthM_ = kInfinity;
 };
 
 }  // namespace roomlight::bake

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "trace/surface_point.h"
 
@@ -11,6 +12,8 @@ namespace {
 constexpr float kLongestFootprintM = 0.3f;  // over which a texel's direct light is averaged
 constexpr float kTypical = 0.985f;  // cosine between the normal of a place and the mean of its texel's: 10°
 constexpr float kStripTexels = 2.5f;  // as wide: each texel is at an edge or beside one
+constexpr size_t kMostOfStrip = 1000;  // triangles: each texel may look at all of them
+constexpr int kTries = 4;
 constexpr float kAlike = 0.9962f;   // between normals and that of their chart: 5°
 
 Vec2 nearestOnEdge(Vec2 p, Vec2 a, Vec2 b) {
@@ -85,17 +88,18 @@ ChartTexels::ChartTexels(const ChartSurface& surface, const Chart& chart, const 
     : surface_(surface),
       chart_(chart),
       grid_(grid),
-      widthM_(chart.areaM2 / std::max({chart.sizeM.x, chart.sizeM.y, 1e-6f})),
       fine_(fine),
       width_((grid.width + 2 * kGap) * fine),
       height_((grid.height + 2 * kGap) * fine),
       reachTexels_(reachTexels),
       nearest_(static_cast<size_t>(width_) * static_cast<size_t>(height_)) {
   for (const uint32_t t : chart.triangles) cover(t);
-  if (widthM_ * std::min(grid.perM.x, grid.perM.y) > kStripTexels) return;
+  if (chart.triangles.size() > kMostOfStrip) return;
   std::vector<std::array<Vec2, 3>> triangles;
   for (const uint32_t t : chart.triangles) triangles.push_back(onPlane(t));
-  border_ = ChartBorder(triangles);
+  ChartBorder border(triangles);
+  if (border.widthM() * std::max(grid.perM.x, grid.perM.y) > kStripTexels) return;
+  border_ = std::move(border), planeOf_ = std::move(triangles);
 }
 
 std::array<Vec2, 3> ChartTexels::onPlane(uint32_t triangle) const {
@@ -139,29 +143,30 @@ void ChartTexels::cover(uint32_t triangle) {
   }
 }
 
-// Where it is on a strip's edge, the place of the strip nearest to what is so far off.
+// Of a strip: the place of a cell, off the edges. Where the strip is too narrow for that it moves less far.
 ChartTexels::Corner ChartTexels::insetAt(size_t cell, OffEdge off) const {
   const Corner at = nearest_[cell];
   const std::array<Vec2, 3> c = onPlane(at.triangle);
-  const Vec2 place = c[0] * (1 - at.b1 - at.b2) + c[1] * at.b1 + c[2] * at.b2,
-             moved = border_.inset(place, std::min(off.distanceM, off.share * widthM_));
-  if (!(square(moved - place) > 0)) return at;
-  Corner best;
-  for (const uint32_t t : chart_.triangles) {
-    const Nearest here = nearestIn(onPlane(t), moved);
-    if (here.distance2 < best.distance2) best = {t, here.distance2, here.b1, here.b2};
+  const Vec2 place = c[0] * (1 - at.b1 - at.b2) + c[1] * at.b1 + c[2] * at.b2;
+  float byM = std::min(off.distanceM, off.share * border_.widthM());
+  for (int k = 0; k < kTries; ++k, byM /= 2) {
+    const Vec2 moved = border_.inset(place, byM);
+    if (!(square(moved - place) > 0)) break;
+    for (size_t i = 0; i < planeOf_.size(); ++i) {
+      const Nearest here = nearestIn(planeOf_[i], moved);
+      if (here.distance2 <= 0) return {chart_.triangles[i], 0, here.b1, here.b2};
+    }
   }
-  return best;
+  return at;
 }
 
 SurfaceElement ChartTexels::element(size_t cell, OffEdge off) const {
-  const bool strip = !border_.empty();
-  const Corner at = strip ? insetAt(cell, off) : nearest_[cell];
+  const Corner at = border_.empty() ? nearest_[cell] : insetAt(cell, off);
   const std::array<Vec3, 3> p = surface_.placesOf(surface_.cornersOf(at.triangle));
   const Vec3 place = p[0] * (1 - at.b1 - at.b2) + p[1] * at.b1 + p[2] * at.b2;
   const float edgeM = std::min(
       kLongestFootprintM, 1 / (std::sqrt(std::max(grid_.perM.x * grid_.perM.y, 1e-6f)) * static_cast<float>(fine_)));
-  return {strip ? place : offEdge(place, (p[0] + p[1] + p[2]) / 3, off),
+  return {offEdge(place, (p[0] + p[1] + p[2]) / 3, off),
           surface_.normalAt(at.triangle, ChartSurface::geometricNormal(p), at.b1, at.b2), edgeM};
 }
 

@@ -84,6 +84,24 @@ TEST(Atlas, placesOfASkirtingBoardKeepOffItsEdges) {
   }
 }
 
+// Where a gable tapers there is no room for all of the centimetre.
+TEST(Atlas, placesOfASliverStayOnIt) {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 0.1f, 0}};
+  mesh.indices = {0, 1, 2};
+  mesh.material = addMaterial(scene, lambertian(0.5f));
+  scene.meshes.push_back(mesh);
+  scene.instances.push_back({});
+  const Atlas atlas = atlasOfAll(scene);
+  ASSERT_FALSE(atlas.elements.empty());
+  for (const SurfaceElement& e : atlas.elements) {
+    const float heightM = 0.05f * e.position.x;
+    EXPECT_GT(e.position.y, 0) << e.position.x;
+    EXPECT_LT(e.position.y, heightM) << e.position.x;
+  }
+}
+
 // A slat of 3 cm whose long edges are rounded over a millimetre, and shaded smoothly.
 Scene roundedSlat() {
   Scene scene;
