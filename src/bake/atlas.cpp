@@ -18,7 +18,6 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr int kMostOutside = 64;       // texels of an edge of what lies in no room, such as the ground,
 constexpr float kLargeM2 = 60;         // or is so large
 constexpr int kMost = 1024;            // texels of an edge
@@ -72,7 +71,7 @@ class AtlasWriter {
     std::optional<ChartTexels> cells;
     if (!normalsAreAlike(surface, chart)) cells.emplace(surface, chart, grid, kCellsATexel, 0.0f);
     const int w = texels.width(), h = texels.height();
-    std::vector<uint32_t> elementAt(texels.count(), kNone);
+    std::vector<uint32_t> elementAt(texels.count(), kNoElement);
     for (size_t i = 0; i < texels.count(); ++i) {
       if (texels.distanceTexels(i) > kInsideTexels) continue;
       const int tx = static_cast<int>(i) % w, ty = static_cast<int>(i) / w;
@@ -110,17 +109,17 @@ class AtlasWriter {
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const size_t i = static_cast<size_t>(y * width + x);
-        if (elementAt[i] != kNone || !texels.onTriangle(i)) continue;
-        uint32_t best = kNone;
+        if (elementAt[i] != kNoElement || !texels.onTriangle(i)) continue;
+        uint32_t best = kNoElement;
         int least = std::numeric_limits<int>::max();
         for (int dy = -2; dy <= 2; ++dy) {
           for (int dx = -2; dx <= 2; ++dx) {
             if (x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= height) continue;
             const uint32_t element = elementAt[static_cast<size_t>((y + dy) * width + x + dx)];
-            if (element != kNone && dx * dx + dy * dy < least) best = element, least = dx * dx + dy * dy;
+            if (element != kNoElement && dx * dx + dy * dy < least) best = element, least = dx * dx + dy * dy;
           }
         }
-        if (best != kNone) atlas_.padding.emplace_back(texelAt(corner.first + x, corner.second + y), best);
+        if (best != kNoElement) atlas_.padding.emplace_back(texelAt(corner.first + x, corner.second + y), best);
       }
     }
   }

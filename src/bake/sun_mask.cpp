@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <mutex>
 
 #include "base/parallel.h"
@@ -14,7 +13,6 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr float kReachTexels = 1.35f;  // beyond a chart: all cells of texels that have elements
 constexpr OffEdge kOffEdge{0.0003f, 0.15f};
 constexpr size_t kRays = 32;         // of a cell at the edge of a patch
@@ -155,7 +153,7 @@ std::vector<uint8_t> nearBuried(const Atlas& atlas, const PlacedChart& placed, s
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
       const uint32_t e = elementOfTexel[static_cast<size_t>((placed.top + y) * atlas.width + placed.left + x)];
-      if (e == kNone || !buried[e]) continue;
+      if (e == kNoElement || !buried[e]) continue;
       for (int ny = std::max(0, y - 1); ny <= std::min(h - 1, y + 1); ++ny) {
         for (int nx = std::max(0, x - 1); nx <= std::min(w - 1, x + 1); ++nx) {
           uint8_t& near = out[static_cast<size_t>(ny * w + nx)];
@@ -236,8 +234,7 @@ class MaskMaker {
 }  // namespace
 
 std::vector<bool> buriedCells(const RayScene& rays, const Atlas& atlas, const LitPlaces& lit, const SeenSides& seen) {
-  std::vector<uint32_t> elementOfTexel(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNone);
-  for (uint32_t i = 0; i < atlas.texels.size(); ++i) elementOfTexel[atlas.texels[i]] = i;
+  const std::vector<uint32_t> elementOfTexel = elementsByTexel(atlas);
   std::vector<bool> out(elementOfTexel.size() * kFineCells * kFineCells);
   std::mutex adding;
   parallelFor(atlas.charts.size(), 1, [&](size_t c) {

@@ -35,11 +35,11 @@ TEST(ChartBorder, whatIsFarFromTheBorderStays) { expectAt(strip().inset({1, 0.05
 // Two slats, 5 mm apart: none of the places of one comes to lie on the other.
 TEST(ChartBorder, placesDoNotCrossASlot) {
   std::vector<std::array<Vec2, 3>> slats;
-  for (const float y : {0.0f, 0.015f}) {
-    const Vec2 a{0, y}, b{1, y}, c{1, y + 0.01f}, d{0, y + 0.01f};
+  for (const float y : {0.0f, 0.035f}) {
+    const Vec2 a{0, y}, b{1, y}, c{1, y + 0.03f}, d{0, y + 0.03f};
     slats.push_back({a, b, c}), slats.push_back({a, c, d});
   }
-  expectAt(ChartBorder(slats).inset({0.5f, 0.01f}, 0.002f), {0.5f, 0.008f});
+  expectAt(ChartBorder(slats).inset({0.5f, 0.03f}, 0.01f), {0.5f, 0.02f});
 }
 
 TEST(ChartBorder, atAReflexCornerPlacesKeepToTheirOwnEdge) {
