@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "trace/surface_point.h"
 
@@ -11,8 +10,7 @@ namespace {
 
 constexpr float kLongestFootprintM = 0.3f;  // over which a texel's direct light is averaged
 constexpr float kTypical = 0.985f;  // cosine between the normal of a place and the mean of its texel's: 10°
-constexpr float kStripTexels = 2.5f;  // as wide: each texel is at an edge or beside one
-constexpr size_t kMostOfStrip = 1000;  // triangles: each texel may look at all of them
+constexpr size_t kMostWithBorder = 1000;  // triangles: each texel may look at all of them
 constexpr int kTries = 4;
 constexpr float kAlike = 0.9962f;   // between normals and that of their chart: 5°
 
@@ -94,12 +92,9 @@ ChartTexels::ChartTexels(const ChartSurface& surface, const Chart& chart, const 
       reachTexels_(reachTexels),
       nearest_(static_cast<size_t>(width_) * static_cast<size_t>(height_)) {
   for (const uint32_t t : chart.triangles) cover(t);
-  if (chart.triangles.size() > kMostOfStrip) return;
-  std::vector<std::array<Vec2, 3>> triangles;
-  for (const uint32_t t : chart.triangles) triangles.push_back(onPlane(t));
-  ChartBorder border(triangles);
-  if (border.widthM() * std::max(grid.perM.x, grid.perM.y) > kStripTexels) return;
-  border_ = std::move(border), planeOf_ = std::move(triangles);
+  if (chart.triangles.size() > kMostWithBorder) return;
+  for (const uint32_t t : chart.triangles) planeOf_.push_back(onPlane(t));
+  border_ = ChartBorder(planeOf_);
 }
 
 std::array<Vec2, 3> ChartTexels::onPlane(uint32_t triangle) const {
@@ -143,7 +138,7 @@ void ChartTexels::cover(uint32_t triangle) {
   }
 }
 
-// Of a strip: the place of a cell, off the edges. Where the strip is too narrow for that it moves less far.
+// The place of a cell, off the chart's edges. Where the chart is too narrow for that it moves less far.
 ChartTexels::Corner ChartTexels::insetAt(size_t cell, OffEdge off) const {
   const Corner at = nearest_[cell];
   const std::array<Vec2, 3> c = onPlane(at.triangle);
@@ -161,12 +156,13 @@ ChartTexels::Corner ChartTexels::insetAt(size_t cell, OffEdge off) const {
 }
 
 SurfaceElement ChartTexels::element(size_t cell, OffEdge off) const {
-  const Corner at = border_.empty() ? nearest_[cell] : insetAt(cell, off);
+  const Corner at = border_.empty() ? nearest_[cell] : insetAt(cell, off), &was = nearest_[cell];
+  const bool moved = at.triangle != was.triangle || at.b1 != was.b1 || at.b2 != was.b2;
   const std::array<Vec3, 3> p = surface_.placesOf(surface_.cornersOf(at.triangle));
   const Vec3 place = p[0] * (1 - at.b1 - at.b2) + p[1] * at.b1 + p[2] * at.b2;
   const float edgeM = std::min(
       kLongestFootprintM, 1 / (std::sqrt(std::max(grid_.perM.x * grid_.perM.y, 1e-6f)) * static_cast<float>(fine_)));
-  return {offEdge(place, (p[0] + p[1] + p[2]) / 3, off),
+  return {moved ? place : offEdge(place, (p[0] + p[1] + p[2]) / 3, off),
           surface_.normalAt(at.triangle, ChartSurface::geometricNormal(p), at.b1, at.b2), edgeM};
 }
 

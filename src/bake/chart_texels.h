@@ -57,8 +57,8 @@ class ChartTexels {
   // From the middle of a cell to the nearest place of the chart, in texels; infinite where that is out of reach.
   float distanceTexels(size_t cell) const;
   bool onTriangle(size_t cell) const { return nearest_[cell].triangle != kNone; }
-  // That place, `off` the chart's edges. Needs onTriangle(). It moves towards the middle of its triangle. That of a
-  // strip may be a hundred times as long as wide: there it moves across the strip, too.
+  // That place, `off` the chart's edges: across them, for the middle of a long triangle lies along them. Where that
+  // does not move it, towards the middle of its triangle. Needs onTriangle().
   SurfaceElement element(size_t cell, OffEdge off) const;
   bool covers(size_t cell) const { return nearest_[cell].distance2 <= 0; }  // the middle of a cell
   // A place of the world in texels from the upper left of the gap; (0, 0) is the middle of a texel.
@@ -78,8 +78,8 @@ class ChartTexels {
   const ChartSurface& surface_;
   const Chart& chart_;
   const ChartGrid grid_;
-  ChartBorder border_;  // of strips,
-  std::vector<std::array<Vec2, 3>> planeOf_;  // and their triangles, m along the chart's axes
+  ChartBorder border_;  // empty where there are too many triangles
+  std::vector<std::array<Vec2, 3>> planeOf_;  // of them, m along the chart's axes
   const int fine_, width_, height_;
   const float reachTexels_;
   std::vector<Corner> nearest_;  // distances in cells
