@@ -7,7 +7,8 @@ import { drawPlan, placeOnPlan } from "./floor_plan.js";
 import { Headset, headsetSupported } from "./headset.js";
 import { stateOfFile, withDial, type Dial, type LightState } from "./light_state.js";
 import { linkOf, readLink } from "./link.js";
-import { loadLight, packedTextures, textureSource, type LoadedHome } from "./load.js";
+import { bytesForLayers, bytesOfLayer } from "./light_chip.js";
+import { LightReader, loadLight, packedTextures, textureBytes, textureSource, type LoadedHome } from "./load.js";
 import { eyeOfCamera, Mover } from "./mover.js";
 import { overlay } from "./overlay.js";
 import { Pace } from "./pace.js";
@@ -45,6 +46,7 @@ export class App {
   canEnterVr = false;
   panelOpen = innerWidth > kNarrowPx;
   private loaded: LoadedHome | null; // until its light is on the GPU
+  private readonly reader: LightReader;
   private readonly canvas: HTMLCanvasElement;
   private readonly key: string;
   private readonly pace = new Pace();
@@ -74,7 +76,19 @@ export class App {
     const anisotropy = Math.min(8, renderer.capabilities.getMaxAnisotropy());
     const textures = textureSource(loaded, anisotropy);
     const packed = packedTextures(loaded, anisotropy);
-    this.stage = new Stage(renderer, loaded.document, loaded.geometry, textures, packed, () => this.refresh());
+    const deviceGib = (navigator as { deviceMemory?: number }).deviceMemory;
+    const mostBytes = bytesForLayers(this.home, textureBytes(loaded), deviceGib);
+    const all = this.home.layers.reduce((sum, _, layer) => sum + bytesOfLayer(this.home, layer), 0);
+    this.reader = new LightReader(loaded, all > mostBytes);
+    const light = {
+      mostBytes,
+      unpack: (layer: number) => this.reader.unpack(layer),
+      failed: (error: unknown) => {
+        console.error(error);
+        this.tell(this.say("failed"));
+      },
+    };
+    this.stage = new Stage(renderer, loaded.document, loaded.geometry, textures, packed, light, () => this.refresh());
     const linked = readLink(location.hash, this.fileLight);
     this.light = linked.light;
     const camera = this.home.cameras[this.home.camera] ?? this.home.cameras[0];
@@ -116,9 +130,8 @@ export class App {
         : this.light[layer.kind].on && layer.hour === this.light.hour;
     };
     let shownMs = 0;
-    await loadLight(loaded, this.stage, isOn, (layer, share) => {
+    await loadLight(loaded, this.reader, this.stage, isOn, share => {
       this.loadedShare = share;
-      this.stage.include(layer);
       // Not after each of very many.
       if (share < 1 && performance.now() - shownMs < kLoadingMs) return;
       shownMs = performance.now();
@@ -129,6 +142,7 @@ export class App {
     this.stage.complete = true;
     const { positions, index } = loaded.geometry;
     this.loaded = null;
+    this.reader.release();
     const world = new Bvh(positions, index);
     this.stage.useWorld(world);
     this.mover.useWorld(world);

@@ -1,5 +1,6 @@
 // The atlas of light: the sum of all layers, each times its factor, as 16-bit floats in units of kUnit lux. The tiles
-// of a layer are drawn as one instanced quad with additive blending, and only when factors have changed.
+// of a layer are drawn as one instanced quad with additive blending, and only when factors have changed. Layers that
+// are not on the chip are in a sum of their own, the rest (layer_keeper.ts).
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
 import { kUnit } from "./units.js";
@@ -38,6 +39,16 @@ const kFragment = `
     outColor = vec4(min(value * uFactor, 65000.0), 1.0);
   }`;
 
+const kRestVertex = `
+  in vec3 position;
+  void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`;
+const kRestFragment = `
+  precision highp float;
+  precision highp sampler2D;
+  uniform sampler2D uRest;
+  out vec4 outColor;
+  void main() { outColor = vec4(max(texelFetch(uRest, ivec2(gl_FragCoord.xy), 0).rgb, 0.0), 1.0); }`;
+
 export const kAdditive = {
   blending: THREE.CustomBlending,
   blendEquation: THREE.AddEquation,
@@ -56,6 +67,10 @@ export function sharedExponentTexture(texels: Uint32Array<ArrayBuffer>, width: n
   return texture;
 }
 
+// How many texels the texture of so many tiles needs.
+export const texelsFor = (tiles: number, tile: number): number =>
+  kRowTexels * Math.max(1, Math.ceil((tiles * tile ** 2) / kRowTexels));
+
 export interface Part {
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.RawShaderMaterial>;
   readonly layer: number;
@@ -66,7 +81,7 @@ export interface Part {
 export function setFactors(parts: readonly Part[], factors: readonly Vec3[], only?: number): void {
   for (const { mesh, layer, scale } of parts) {
     const factor = factors[layer] ?? [0, 0, 0];
-    mesh.visible = factor.some(c => c > 0) && (only ?? layer) === layer;
+    mesh.visible = factor.some(c => c !== 0) && (only ?? layer) === layer;
     (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
       .set(factor[0], factor[1], factor[2])
       .multiplyScalar(scale / kUnit);
@@ -75,9 +90,12 @@ export function setFactors(parts: readonly Part[], factors: readonly Vec3[], onl
 
 export class LightSum {
   readonly target: THREE.WebGLRenderTarget;
+  private rest: THREE.WebGLRenderTarget | null = null;
+  private newRest: THREE.WebGLRenderTarget | null = null;
+  private restMesh: THREE.Mesh<THREE.BufferGeometry, THREE.RawShaderMaterial> | null = null;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.Camera();
-  private readonly parts: Part[] = [];
+  private parts: Part[] = [];
 
   constructor(
     private readonly renderer: THREE.WebGLRenderer,
@@ -85,19 +103,18 @@ export class LightSum {
     readonly height: number,
     private readonly tile: number,
   ) {
-    this.target = new THREE.WebGLRenderTarget(width, height, {
+    this.target = this.makeTarget();
+    this.scene.matrixWorldAutoUpdate = false;
+  }
+
+  private makeTarget(): THREE.WebGLRenderTarget {
+    return new THREE.WebGLRenderTarget(this.width, this.height, {
       type: THREE.HalfFloatType,
       format: THREE.RGBAFormat,
       depthBuffer: false,
       minFilter: THREE.LinearFilter,
       magFilter: THREE.LinearFilter,
     });
-    this.scene.matrixWorldAutoUpdate = false;
-  }
-
-  // How many texels the texture of so many tiles needs.
-  texelsFor(tiles: number): number {
-    return kRowTexels * Math.max(1, Math.ceil((tiles * this.tile ** 2) / kRowTexels));
   }
 
   // More than one texture can hold on small GPUs is split; 32 tiles of an even size fill whole rows.
@@ -136,10 +153,77 @@ export class LightSum {
     this.parts.push({ mesh, layer, scale });
   }
 
+  // Gives the memory of a layer back.
+  drop(layer: number): void {
+    for (const { mesh, layer: of } of this.parts) {
+      if (of !== layer) continue;
+      this.scene.remove(mesh);
+      mesh.geometry.dispose();
+      (mesh.material.uniforms.uTexels!.value as THREE.Texture).dispose();
+      mesh.material.dispose();
+    }
+    this.parts = this.parts.filter(part => part.layer !== layer);
+  }
+
   // The sum anew, or with `only` that layer on top of what is there.
   update(factors: readonly Vec3[], only?: number): void {
     setFactors(this.parts, factors, only);
+    if (this.restMesh) this.restMesh.visible = only === undefined;
     drawInto(this.renderer, this.target, this.scene, this.camera, only === undefined);
+  }
+
+  // Adds a layer to the rest.
+  addToRest(layer: number, factor: Vec3): void {
+    if (!this.rest) this.useRest(this.emptied(this.makeTarget()));
+    this.addTo(this.rest!, layer, factor);
+  }
+
+  // The same to one that will take its place.
+  startNewRest(): void {
+    this.newRest = this.emptied(this.newRest ?? this.makeTarget());
+  }
+  addToNewRest(layer: number, factor: Vec3): void {
+    this.addTo(this.newRest!, layer, factor);
+  }
+  useNewRest(): void {
+    this.rest?.dispose();
+    this.useRest(this.newRest!);
+    this.newRest = null;
+  }
+
+  private addTo(target: THREE.WebGLRenderTarget, layer: number, factor: Vec3): void {
+    const factors: Vec3[] = [];
+    factors[layer] = factor;
+    setFactors(this.parts, factors, layer);
+    if (this.restMesh) this.restMesh.visible = false;
+    drawInto(this.renderer, target, this.scene, this.camera, false);
+  }
+
+  private emptied(target: THREE.WebGLRenderTarget): THREE.WebGLRenderTarget {
+    drawInto(this.renderer, target, new THREE.Scene(), this.camera);
+    return target;
+  }
+
+  private useRest(target: THREE.WebGLRenderTarget): void {
+    this.rest = target;
+    if (!this.restMesh) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute(
+        "position",
+        new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
+      );
+      const material = new THREE.RawShaderMaterial({
+        glslVersion: THREE.GLSL3,
+        vertexShader: kRestVertex,
+        fragmentShader: kRestFragment,
+        uniforms: { uRest: { value: null } },
+        ...kAdditive,
+      });
+      this.restMesh = new THREE.Mesh(geometry, material);
+      this.restMesh.frustumCulled = false;
+      this.scene.add(this.restMesh);
+    }
+    this.restMesh.material.uniforms.uRest!.value = target.texture;
   }
 }
 

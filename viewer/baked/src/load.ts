@@ -1,9 +1,11 @@
 // From the bytes of a file to geometry, textures, and layers of light one after the other.
 import * as THREE from "three";
 import { BadFile } from "./bad_file.js";
-import { checkDocument, viewBytes, type Gltf } from "./document.js";
+import { checkDocument, viewBytes, type Gltf, type Home, type Layer } from "./document.js";
 import { readGeometry, type Geometry } from "./geometry.js";
 import { parseGlb } from "./glb.js";
+import type { UnpackedLight } from "./light_chip.js";
+import { texelsFor } from "./light_sum.js";
 import { expanded } from "./meshopt.js";
 import type { Stage } from "./stage.js";
 import { Sunlight } from "./sunlight.js";
@@ -61,6 +63,16 @@ export function textureSource({ document, images }: LoadedHome, anisotropy: numb
 }
 
 const kPackedPx = 512;
+type Sun = NonNullable<Layer["sun"]>;
+
+// What images and masks of the sun take on the chip, mipmaps included.
+export function textureBytes({ document, images }: LoadedHome): number {
+  const { atlas, layers } = document.extensions.ROOMLIGHT_light_layers;
+  const pixels = images.reduce((sum, { width, height }) => sum + width * height, 0);
+  const bytesOf = ({ mask }: Sun) => Sunlight.bytesOf(mask, atlas.tile) * (mask.channels === 1 ? 1 : 4 / 3);
+  const masks = layers.reduce((sum, { sun }) => sum + (sun ? bytesOf(sun) : 0), 0);
+  return (16 / 3) * pixels + masks;
+}
 
 // The images of base colours that share one texture.
 export function packedTextures({ geometry, images }: LoadedHome, anisotropy: number): THREE.DataArrayTexture | null {
@@ -85,25 +97,64 @@ export function packedTextures({ geometry, images }: LoadedHome, anisotropy: num
   return texture;
 }
 
+// Unpacks layers of light. `keeps`: has a copy of their bytes, so that it can go on without the file.
+export class LightReader {
+  private readonly home: Home;
+  private views: readonly { light: Uint8Array; lean: Uint8Array | null }[];
+
+  constructor(
+    { document, binary }: LoadedHome,
+    private readonly keeps: boolean,
+  ) {
+    this.home = document.extensions.ROOMLIGHT_light_layers;
+    const bytes = (view: number) => {
+      const of = viewBytes(document, binary, view);
+      return keeps ? of.slice() : of;
+    };
+    this.views = this.home.layers.map(({ light, lean }) => ({
+      light: bytes(light.bufferView),
+      lean: lean ? bytes(lean.bufferView) : null,
+    }));
+  }
+
+  // The file is not needed any more.
+  release(): void {
+    if (!this.keeps) this.views = [];
+  }
+
+  async unpack(i: number): Promise<UnpackedLight> {
+    const { layers, atlas } = this.home;
+    const { name, light, lean } = layers[i]!;
+    const { tile } = atlas;
+    const texels = async (bytes: Uint8Array, tiles: number, what: string) =>
+      unpackTexels(await inflate(bytes, 4 * tile ** 2 * tiles, what), tile, tile, texelsFor(tiles, tile));
+    const { light: bytes, lean: leanBytes } = this.views[i]!;
+    const lit = await texels(bytes, light.tiles.length, `layers.${i} (${name})`);
+    if (!lean || !leanBytes) return { light: lit, lean: null };
+    const leans = await texels(leanBytes, lean.tiles.length, `layers.${i} (${name}): lean`);
+    timesLuminance(leans, lean.tiles, lit, light.tiles, tile ** 2);
+    return { light: lit, lean: leans };
+  }
+}
+
 // The layers that are on come first; `came` is called after each, with the share that has come.
 export async function loadLight(
   { document, binary }: LoadedHome,
+  reader: LightReader,
   stage: Stage,
   isOn: (layer: number) => boolean,
-  came: (layer: number, share: number) => void,
+  came: (share: number) => void,
 ): Promise<void> {
   const { atlas, layers } = document.extensions.ROOMLIGHT_light_layers;
   const order = layers.map((_, i) => i).sort((a, b) => Number(isOn(b)) - Number(isOn(a)) || a - b);
   const unpack = async (i: number) => {
-    const { name, light, lean, panorama, sun } = layers[i]!;
-    const what = `layers.${i} (${name})`;
-    const bytes = (view: number, count: number, of: string) => inflate(viewBytes(document, binary, view), count, of);
-    const part = (view: number, texels: number, of: string) => bytes(view, 4 * texels, of);
+    const { name, panorama, sun } = layers[i]!;
+    const bytes = (view: number, count: number, of: string) =>
+      inflate(viewBytes(document, binary, view), count, `layers.${i} (${name}): ${of}`);
     return {
-      light: await part(light.bufferView, atlas.tile ** 2 * light.tiles.length, what),
-      lean: lean && (await part(lean.bufferView, atlas.tile ** 2 * lean.tiles.length, `${what}: lean`)),
-      sky: panorama && (await part(panorama.bufferView, panorama.width * panorama.height, `${what}: panorama`)),
-      mask: sun && (await bytes(sun.mask.bufferView, Sunlight.bytesOf(sun.mask, atlas.tile), `${what}: sun`)),
+      light: await reader.unpack(i),
+      sky: panorama && (await bytes(panorama.bufferView, 4 * panorama.width * panorama.height, "panorama")),
+      mask: sun && (await bytes(sun.mask.bufferView, Sunlight.bytesOf(sun.mask, atlas.tile), "sun")),
     };
   };
   // The next one is unpacked while one goes to the GPU.
@@ -114,23 +165,14 @@ export async function loadLight(
   };
   let next = start(0);
   for (const [done, i] of order.entries()) {
-    const { light, lean, panorama } = layers[i]!;
-    const planes = (await next)!;
+    const { panorama } = layers[i]!;
+    const { light, sky, mask } = (await next)!;
     next = start(done + 1);
-    const texelsOf = ({ tiles }: typeof light, bytes: Uint8Array) =>
-      unpackTexels(bytes, atlas.tile, atlas.tile, stage.light.texelsFor(tiles.length));
-    const texels = texelsOf(light, planes.light);
-    if (stage.lean && lean && planes.lean) {
-      const leans = texelsOf(lean, planes.lean);
-      timesLuminance(leans, lean.tiles, texels, light.tiles, atlas.tile ** 2);
-      stage.lean.add(i, lean.tiles, leans, light.scale);
+    if (panorama && sky) {
+      stage.sky.add(i, unpackTexels(sky, panorama.width, panorama.height), panorama.width, panorama.scale);
     }
-    stage.light.add(i, light.tiles, texels, light.scale);
-    if (panorama && planes.sky) {
-      const sky = unpackTexels(planes.sky, panorama.width, panorama.height);
-      stage.sky.add(i, sky, panorama.width, panorama.scale);
-    }
-    if (planes.mask) stage.sunlight.add(i, planes.mask);
-    came(i, (done + 1) / order.length);
+    if (mask) stage.sunlight.add(i, mask);
+    stage.include(i, light);
+    came((done + 1) / order.length);
   }
 }

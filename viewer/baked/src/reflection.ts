@@ -135,7 +135,7 @@ export const kReflectionGlsl = (unit: string): string => `
 
   // Radiance that a surface reflects, in cd/m2. What is very rough reflects the mean of what arrives. A single picture
   // follows one ray, where most of the light comes from (Lagarde and de Rousiers 2014), and blurs what it meets.
-  // weight: the share that is reflected.
+  // weight: what is reflected, as a share of all that the surface sends back. On black ones nothing hides the noise.
   vec3 reflected(vec3 n, vec3 v, float roughness, float weight, vec3 lux) {
     vec3 mean = lux / kPi;
     if (!uReflect || roughness >= kRough) return mean;

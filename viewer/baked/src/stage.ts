@@ -8,14 +8,15 @@ import type { Gltf, Home } from "./document.js";
 import { scaleOf, type Scale } from "./false_colour.js";
 import type { Geometry } from "./geometry.js";
 import { layerFactors, sameFactors, type LightState } from "./light_state.js";
-import { LightSum } from "./light_sum.js";
+import { LayerKeeper, type LayerSource } from "./layer_keeper.js";
+import { bytesOfLayer, LightChip, type UnpackedLight } from "./light_chip.js";
 import type { Eye } from "./link.js";
 import { kProbeDefines, Probe } from "./probe.js";
 import { middleOf, roomInView } from "./rooms.js";
 import { Sky } from "./sky.js";
 import { SpotMeter } from "./spot_meter.js";
 import { Sunlight } from "./sunlight.js";
-import { differ, followed, gainsFor, luminance } from "./white_balance.js";
+import { differ, followed, gainsFor } from "./white_balance.js";
 import { Surfaces, type TextureSource, type Uniforms } from "./surfaces.js";
 import { kFinishGlsl } from "./surface_shader.js";
 
@@ -28,13 +29,19 @@ const kProbeHeightM = 1.5;
 const kStrayM = 3;
 const kMostBiasEv = 2;
 const kPictures = 8; // that are averaged where nothing moves
+const kCalmMs = 400; // after the last turn of a dial
 const kRestMs = 150; // after the last change, so that dials answer at once
+
+// Layers of light as they are packed, and how many bytes of them may be on the chip at once.
+export interface StageLight {
+  readonly mostBytes: number;
+  unpack(layer: number): Promise<UnpackedLight>;
+  failed(error: unknown): void;
+}
 
 export class Stage {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(60, 1, kNearM, kFarM);
-  readonly light: LightSum;
-  readonly lean: LightSum | null; // where the light comes from, on what has normal maps
   readonly sunlight: Sunlight;
   readonly sky: Sky;
   readonly display: Display;
@@ -48,6 +55,8 @@ export class Stage {
   frames = 0;
   scale: Scale | null = null; // of false colours
   private readonly home: Home;
+  private readonly layers: LayerKeeper<UnpackedLight>;
+  private lightMs = -Infinity; // when the light was last set
   private room: number | null | undefined = undefined;
   private factors: Vec3[] | null = null;
   private wantedEv100: number | null = null;
@@ -68,14 +77,19 @@ export class Stage {
     geometry: Geometry,
     textures: TextureSource,
     packed: THREE.DataArrayTexture | null,
+    light: StageLight,
     private readonly changed: () => void,
   ) {
     this.home = document.extensions.ROOMLIGHT_light_layers;
     renderer.autoClear = false;
     renderer.info.autoReset = false;
-    const { width, height, tile } = this.home.atlas;
-    this.light = new LightSum(renderer, width, height, tile);
-    this.lean = this.home.layers.some(layer => layer.lean) ? new LightSum(renderer, width, height, tile) : null;
+    const chip = new LightChip(renderer, this.home);
+    const source: LayerSource<UnpackedLight> = {
+      bytes: layer => bytesOfLayer(this.home, layer),
+      unpack: light.unpack,
+      calm: () => this.calm(),
+    };
+    this.layers = new LayerKeeper(chip, source, light.mostBytes, () => this.showLight(), light.failed);
     this.sunlight = new Sunlight(this.home);
     this.display = new Display(renderer, this.home, 4);
     this.probe = new Probe(renderer, this.scene, this.display.uniforms, kProbePx);
@@ -83,42 +97,30 @@ export class Stage {
       ...this.display.uniforms,
       ...this.probe.uniforms,
       ...this.sunlight.uniforms,
-      uLight: { value: this.light.target.texture },
-      ...(this.lean ? { uLean: { value: this.lean.target.texture } } : {}),
+      uLight: { value: chip.light.target.texture },
+      ...(chip.lean ? { uLean: { value: chip.lean.target.texture } } : {}),
       ...(packed ? { uPacked: { value: packed } } : {}),
     };
     this.surfaces = new Surfaces(document, geometry, uniforms, textures, {
       ...kProbeDefines(kProbePx),
       ...this.sunlight.defines,
-      ...(this.lean ? { LEAN: "" } : {}),
+      ...(chip.lean ? { LEAN: "" } : {}),
     });
     this.scene.add(this.surfaces.group);
     this.sky = new Sky(renderer, kPanoramaWidth, kPanoramaWidth / 2, kFinishGlsl, this.display.uniforms);
     this.scene.add(this.sky.mesh);
     this.scene.matrixWorldAutoUpdate = false;
-    this.spot = new SpotMeter(renderer, this.light, this.sunlight, geometry);
+    this.spot = new SpotMeter(renderer, chip.light, this.sunlight, geometry);
   }
 
   touch(): void {
     this.due = true;
   }
 
-  // What factors leave of the luminance of each layer.
-  private luminanceShares(factors: readonly Vec3[]): Vec3[] {
-    return factors.map(([r, g, b], i) => {
-      const { color } = this.home.layers[i]!;
-      const share = luminance([r * color[0], g * color[1], b * color[2]]) / luminance(color);
-      return [share, share, share];
-    });
-  }
-
   // A layer has come: its light is added to what is there. Seen with the next frame that is due.
-  include(layer: number): void {
-    const factors = this.factors ?? [];
-    if (!factors[layer]?.some(c => c > 0)) return;
-    this.light.update(factors, layer);
-    this.lean?.update(this.luminanceShares(factors), layer);
-    this.sky.update(factors, layer);
+  include(layer: number, unpacked: UnpackedLight): void {
+    if (!this.layers.come(layer, unpacked)) return;
+    this.sky.update(this.factors ?? [], layer);
     this.probe.touch();
     this.scaleDue = this.meterDue = true;
   }
@@ -127,13 +129,22 @@ export class Stage {
     const factors = layerFactors(this.home, state);
     if (sameFactors(this.factors, factors)) return;
     this.factors = factors;
-    this.light.update(factors);
-    this.lean?.update(this.luminanceShares(factors));
+    this.lightMs = performance.now();
+    this.layers.update(factors);
     this.sunlight.update(factors);
     this.sky.update(factors);
     this.surfaces.setFactors(factors);
+    this.showLight();
+  }
+
+  private showLight(): void {
     this.probe.touch();
     this.due = this.scaleDue = this.meterDue = true;
+  }
+
+  // Until nobody moves a dial.
+  private async calm(): Promise<void> {
+    while (performance.now() - this.lightMs < kCalmMs) await new Promise(done => setTimeout(done, kCalmMs / 4));
   }
 
   setEye({ position, yawDeg, pitchDeg, fovDeg }: Eye): void {
@@ -258,6 +269,7 @@ export class Stage {
   get restless(): boolean {
     return (
       this.due ||
+      this.layers.busy ||
       this.refining ||
       this.meterDue ||
       this.metering ||

@@ -255,7 +255,8 @@ export const kSurfaceFragment = `
     // Where there is neither glint nor probe, the sun's light is reflected as all other light is.
     vec3 mirrored = uReflect ? lux : lux + straight;
     vec3 shine = glint;
-    if (kept < 1.0) shine += specular * reflected(n, v, roughness, 1.0 - kept, mirrored);
+    float matt = luminance(base.rgb) * (1.0 - gloss.y) * kept;
+    if (kept < 1.0) shine += specular * reflected(n, v, roughness, (1.0 - kept) / (1.0 - kept + matt), mirrored);
     lux += straight;
     #ifdef PANE
       // Alpha of a colour: how much of a place is covered at all. What lies behind passes by that of the target.

@@ -20,6 +20,7 @@ import {
   type BakedVisit,
 } from "./baked_support.js";
 import { kPhone, until } from "./support.js";
+import { countTextureBytes, textureBytes } from "./texture_bytes.js";
 
 const skip = noBakedPage();
 // Small, as the processor draws.
@@ -78,6 +79,34 @@ for (const vertexLit of [false, true]) {
     },
   );
 }
+
+test("a device with little memory shows the same light", { skip }, async () => {
+  const visit = await visitHome(browser, home, kDesktop, async page => {
+    await page.addInitScript(() => Object.defineProperty(navigator, "deviceMemory", { value: 0.001 }));
+    await countTextureBytes(page);
+  });
+  const { page } = visit;
+  await visit.settled();
+  const bytes = await textureBytes(page);
+  const [pendant, strip] = kLampLux as [Vec3, Vec3];
+  await page.getByLabel("Automatic exposure").uncheck();
+  await shows(visit, shown(pendant), "as baked");
+  await page.getByLabel("Strip: on").check();
+  await shows(visit, shown(sum([pendant, 1], [strip, 1])), "with a second lamp");
+  await slide(page, "Pendant: brightness", 50);
+  await shows(visit, shown(sum([pendant, 0.5], [strip, 1])), "the first one dimmed");
+  await page.getByLabel("Pendant: on", { exact: true }).uncheck();
+  await shows(visit, shown(strip), "the second alone");
+  await page.getByRole("button", { name: "Everything on" }).click();
+  await shows(
+    visit,
+    shown(sum(...kLampLux.map(l => [l, 1] as const), [kSunLux[0]!, 1], [kSkyLux[0]!, 1])),
+    "everything",
+  );
+  const layer = 4 * 6 * 32 ** 2;
+  assert.ok((await textureBytes(page)) < bytes + 1.5 * layer, "one layer is there at a time");
+  await visit.end();
+});
 
 test("daylight goes from one baked hour to the next", { skip }, async () => {
   const visit = await opened();
