@@ -7,7 +7,7 @@ import { drawPlan, placeOnPlan } from "./floor_plan.js";
 import { Headset, headsetSupported } from "./headset.js";
 import { stateOfFile, withDial, type Dial, type LightState } from "./light_state.js";
 import { linkOf, readLink } from "./link.js";
-import { bytesForLayers, bytesOfLayer } from "./light_chip.js";
+import { bytesForLayers } from "./light_chip.js";
 import { LightReader, loadLight, packedTextures, textureBytes, textureSource, type LoadedHome } from "./load.js";
 import { eyeOfCamera, Mover } from "./mover.js";
 import { overlay } from "./overlay.js";
@@ -78,8 +78,7 @@ export class App {
     const packed = packedTextures(loaded, anisotropy);
     const deviceGib = (navigator as { deviceMemory?: number }).deviceMemory;
     const mostBytes = bytesForLayers(this.home, textureBytes(loaded), deviceGib);
-    const all = this.home.layers.reduce((sum, _, layer) => sum + bytesOfLayer(this.home, layer), 0);
-    this.reader = new LightReader(loaded, all > mostBytes);
+    this.reader = new LightReader(loaded, mostBytes < Infinity);
     const light = {
       mostBytes,
       unpack: (layer: number) => this.reader.unpack(layer),

@@ -12,6 +12,7 @@ import { exposureFromEv100, kDitherGlsl, kToneGlsl, kToneNumbers } from "./tone.
 import { kMostStored, kUnit } from "./units.js";
 import { meanLight } from "./white_balance.js";
 import type { Vec3 } from "../../src/vector.js";
+import { screenTriangle } from "./screen_triangle.js";
 
 const kMeterWidth = 48;
 const kMeterHeight = 27;
@@ -102,8 +103,7 @@ const kLightFragment = `${kReadHead}
   }`;
 
 function quad(fragmentShader: string, uniforms: Uniforms, blending = {}): THREE.Mesh {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+  const geometry = screenTriangle();
   const material = new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3,
     vertexShader: kVertex,

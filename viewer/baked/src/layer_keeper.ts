@@ -20,9 +20,10 @@ export interface Chip<T> {
 export interface LayerSource<T> {
   bytes(layer: number): number; // on the chip
   unpack(layer: number): Promise<T>;
-  calm(): Promise<void>; // until nothing has changed for a moment
+  calm(isLate: () => boolean): Promise<void>; // until nothing has changed for a moment, or it is too late
 }
 
+const kShowMs = 500; // between pictures while several layers are unpacked
 const kNone: Vec3 = [0, 0, 0];
 const isNone = (factor: Vec3): boolean => factor.every(c => c === 0);
 const same = (a: Vec3, b: Vec3): boolean => a.every((c, i) => c === b[i]);
@@ -31,10 +32,12 @@ const negative = ([r, g, b]: Vec3): Vec3 => [-r, -g, -b];
 export class LayerKeeper<T> {
   private readonly here = new Set<number>(); // those used last come last
   private readonly aside = new Map<number, Vec3>(); // what they are multiplied by in the rest
+  private readonly failing = new Set<number>(); // of those aside, until the next turn of a dial
   private factors: readonly Vec3[] = [];
   private asideChanges = 0;
   private rough = false; // light was taken out of the rest
   private working = false;
+  private shownMs = -Infinity;
 
   constructor(
     private readonly chip: Chip<T>,
@@ -67,8 +70,14 @@ export class LayerKeeper<T> {
       this.here.add(layer);
     }
     this.factors = factors;
-    this.chip.show(factors);
-    if (!this.working && this.outdated() !== undefined) void this.work();
+    this.failing.clear();
+    this.show();
+    if (!this.working && (this.rough || this.outdated() !== undefined)) void this.work();
+  }
+
+  private show(): void {
+    this.chip.show(this.factors);
+    this.shownMs = performance.now();
   }
 
   private factorOf(layer: number): Vec3 {
@@ -79,7 +88,9 @@ export class LayerKeeper<T> {
   }
   // One that is in the rest times another factor than it should be.
   private outdated(): number | undefined {
-    return [...this.aside].find(([layer, factor]) => !same(factor, this.factorOf(layer)))?.[0];
+    const isOutdated = ([layer, factor]: readonly [number, Vec3]) =>
+      !same(factor, this.factorOf(layer)) && !this.failing.has(layer);
+    return [...this.aside].find(isOutdated)?.[0];
   }
 
   private async work(): Promise<void> {
@@ -98,8 +109,22 @@ export class LayerKeeper<T> {
     this.changed();
   }
 
+  // Shown with the others that are outdated, as one of two hours alone would be a flash or a gap.
   private async fetch(layer: number): Promise<void> {
-    const unpacked = await this.source.unpack(layer);
+    try {
+      const unpacked = await this.source.unpack(layer);
+      this.take(layer, unpacked);
+    } catch (error) {
+      this.failing.add(layer);
+      this.failed(error);
+    }
+    if (this.outdated() !== undefined && performance.now() - this.shownMs < kShowMs) return;
+    this.show();
+    this.changed();
+  }
+
+  // Out of the rest, and onto the chip.
+  private take(layer: number, unpacked: T): void {
     this.chip.put(layer, unpacked);
     const given = this.aside.get(layer)!;
     this.aside.delete(layer);
@@ -110,8 +135,6 @@ export class LayerKeeper<T> {
     }
     this.here.add(layer);
     for (const other of [...this.here]) if (other !== layer && this.bytesHere() > this.mostBytes) this.setAside(other);
-    this.chip.show(this.factors);
-    this.changed();
   }
 
   private setAside(layer: number): void {
@@ -130,7 +153,8 @@ export class LayerKeeper<T> {
     this.chip.startNewRest();
     for (const [layer, factor] of [...this.aside]) {
       if (isNone(factor)) continue;
-      await this.source.calm();
+      await this.source.calm(isLate);
+      if (isLate()) return;
       const unpacked = await this.source.unpack(layer);
       if (isLate()) return;
       this.chip.put(layer, unpacked);
@@ -139,6 +163,6 @@ export class LayerKeeper<T> {
     }
     this.chip.useNewRest();
     this.rough = false;
-    this.chip.show(this.factors);
+    this.show();
   }
 }

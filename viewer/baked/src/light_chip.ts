@@ -13,15 +13,18 @@ export interface UnpackedLight {
 
 const kMostBytes = 170e6; // of textures that the page keeps, its pictures left out
 const kBytesPerGib = 45e6; // of the device's memory, where it tells
-const kSums = 3; // what is shown, the rest, and a new one
+const kSumsAside = 2; // beside what is shown: the rest, and a new one
 const kSumTexelBytes = 8;
 
-// What layers may take on the chip beside `others`, bytes of other textures.
+// What layers may take on the chip beside `others`, bytes of other textures. No limit where all of them fit, or take no
+// more than the sums that stand in for those that are aside.
 export function bytesForLayers(home: Home, others: number, deviceGib: number | undefined): number {
-  const { width, height } = home.atlas;
-  const sums = home.layers.some(layer => layer.lean) ? 2 * kSums : kSums;
-  const most = Math.min(kMostBytes, kBytesPerGib * (deviceGib ?? Infinity));
-  return Math.max(0, most - others - sums * kSumTexelBytes * width * height);
+  const { atlas, layers } = home;
+  const all = layers.reduce((sum, _, layer) => sum + bytesOfLayer(home, layer), 0);
+  const sum = (layers.some(layer => layer.lean) ? 2 : 1) * kSumTexelBytes * atlas.width * atlas.height;
+  const left = Math.min(kMostBytes, kBytesPerGib * (deviceGib ?? Infinity)) - others - sum;
+  const aside = kSumsAside * sum;
+  return all <= Math.max(left, aside) ? Infinity : Math.max(0, left - aside);
 }
 
 export function bytesOfLayer({ atlas, layers }: Home, layer: number): number {

@@ -3,6 +3,7 @@
 // are not on the chip are in a sum of their own, the rest (layer_keeper.ts).
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
+import { screenTriangle } from "./screen_triangle.js";
 import { kUnit } from "./units.js";
 
 export const kRowTexels = 2048; // of the textures that hold a layer's tiles, one texel after the other
@@ -36,7 +37,7 @@ const kFragment = `
     ivec2 p = ivec2(vInTile);
     int at = vFirst + p.y * uTile + p.x;
     vec3 value = texelFetch(uTexels, ivec2(at % ${kRowTexels}, at / ${kRowTexels}), 0).rgb;
-    outColor = vec4(min(value * uFactor, 65000.0), 1.0);
+    outColor = vec4(clamp(value * uFactor, -65000.0, 65000.0), 1.0);
   }`;
 
 const kRestVertex = `
@@ -81,7 +82,7 @@ export interface Part {
 export function setFactors(parts: readonly Part[], factors: readonly Vec3[], only?: number): void {
   for (const { mesh, layer, scale } of parts) {
     const factor = factors[layer] ?? [0, 0, 0];
-    mesh.visible = factor.some(c => c !== 0) && (only ?? layer) === layer;
+    mesh.visible = factor.some(c => Math.abs(c) > 0) && (only ?? layer) === layer;
     (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
       .set(factor[0], factor[1], factor[2])
       .multiplyScalar(scale / kUnit);
@@ -92,7 +93,7 @@ export class LightSum {
   readonly target: THREE.WebGLRenderTarget;
   private rest: THREE.WebGLRenderTarget | null = null;
   private newRest: THREE.WebGLRenderTarget | null = null;
-  private restMesh: THREE.Mesh<THREE.BufferGeometry, THREE.RawShaderMaterial> | null = null;
+  private readonly restMesh: THREE.Mesh<THREE.BufferGeometry, THREE.RawShaderMaterial>;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.Camera();
   private parts: Part[] = [];
@@ -105,6 +106,16 @@ export class LightSum {
   ) {
     this.target = this.makeTarget();
     this.scene.matrixWorldAutoUpdate = false;
+    const material = new THREE.RawShaderMaterial({
+      glslVersion: THREE.GLSL3,
+      vertexShader: kRestVertex,
+      fragmentShader: kRestFragment,
+      uniforms: { uRest: { value: null } },
+      ...kAdditive,
+    });
+    this.restMesh = new THREE.Mesh(screenTriangle(), material);
+    this.restMesh.frustumCulled = false;
+    this.scene.add(this.restMesh);
   }
 
   private makeTarget(): THREE.WebGLRenderTarget {
@@ -168,7 +179,7 @@ export class LightSum {
   // The sum anew, or with `only` that layer on top of what is there.
   update(factors: readonly Vec3[], only?: number): void {
     setFactors(this.parts, factors, only);
-    if (this.restMesh) this.restMesh.visible = only === undefined;
+    this.restMesh.visible = this.rest !== null && only === undefined;
     drawInto(this.renderer, this.target, this.scene, this.camera, only === undefined);
   }
 
@@ -195,7 +206,7 @@ export class LightSum {
     const factors: Vec3[] = [];
     factors[layer] = factor;
     setFactors(this.parts, factors, layer);
-    if (this.restMesh) this.restMesh.visible = false;
+    this.restMesh.visible = false;
     drawInto(this.renderer, target, this.scene, this.camera, false);
   }
 
@@ -206,23 +217,6 @@ export class LightSum {
 
   private useRest(target: THREE.WebGLRenderTarget): void {
     this.rest = target;
-    if (!this.restMesh) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute(
-        "position",
-        new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
-      );
-      const material = new THREE.RawShaderMaterial({
-        glslVersion: THREE.GLSL3,
-        vertexShader: kRestVertex,
-        fragmentShader: kRestFragment,
-        uniforms: { uRest: { value: null } },
-        ...kAdditive,
-      });
-      this.restMesh = new THREE.Mesh(geometry, material);
-      this.restMesh.frustumCulled = false;
-      this.scene.add(this.restMesh);
-    }
     this.restMesh.material.uniforms.uRest!.value = target.texture;
   }
 }

@@ -63,16 +63,6 @@ export function textureSource({ document, images }: LoadedHome, anisotropy: numb
 }
 
 const kPackedPx = 512;
-type Sun = NonNullable<Layer["sun"]>;
-
-// What images and masks of the sun take on the chip, mipmaps included.
-export function textureBytes({ document, images }: LoadedHome): number {
-  const { atlas, layers } = document.extensions.ROOMLIGHT_light_layers;
-  const pixels = images.reduce((sum, { width, height }) => sum + width * height, 0);
-  const bytesOf = ({ mask }: Sun) => Sunlight.bytesOf(mask, atlas.tile) * (mask.channels === 1 ? 1 : 4 / 3);
-  const masks = layers.reduce((sum, { sun }) => sum + (sun ? bytesOf(sun) : 0), 0);
-  return (16 / 3) * pixels + masks;
-}
 
 // The images of base colours that share one texture.
 export function packedTextures({ geometry, images }: LoadedHome, anisotropy: number): THREE.DataArrayTexture | null {
@@ -97,7 +87,22 @@ export function packedTextures({ geometry, images }: LoadedHome, anisotropy: num
   return texture;
 }
 
-// Unpacks layers of light. `keeps`: has a copy of their bytes, so that it can go on without the file.
+type Sun = NonNullable<Layer["sun"]>;
+
+// What images and masks of the sun take on the chip, mipmaps included.
+export function textureBytes({ document, images, geometry }: LoadedHome): number {
+  const { atlas, layers } = document.extensions.ROOMLIGHT_light_layers;
+  const pixels = images.reduce(
+    (sum, { width, height }, i) => sum + (geometry.packed.includes(i) ? kPackedPx ** 2 : width * height),
+    0,
+  );
+  const suns = layers.flatMap(({ sun }) => (sun ? [sun] : []));
+  const grey = suns.every(({ mask }) => mask.channels === 1);
+  const maskBytes = ({ mask }: Sun) => mask.tiles.length * (atlas.tile * mask.fine) ** 2 * (grey ? 1 : 4);
+  return (16 / 3) * pixels + suns.reduce((sum, sun) => sum + maskBytes(sun), 0);
+}
+
+// Unpacks layers of light. `keeps`: can go on without the file.
 export class LightReader {
   private readonly home: Home;
   private views: readonly { light: Uint8Array; lean: Uint8Array | null }[];
@@ -107,19 +112,17 @@ export class LightReader {
     private readonly keeps: boolean,
   ) {
     this.home = document.extensions.ROOMLIGHT_light_layers;
-    const bytes = (view: number) => {
-      const of = viewBytes(document, binary, view);
-      return keeps ? of.slice() : of;
-    };
     this.views = this.home.layers.map(({ light, lean }) => ({
-      light: bytes(light.bufferView),
-      lean: lean ? bytes(lean.bufferView) : null,
+      light: viewBytes(document, binary, light.bufferView),
+      lean: lean ? viewBytes(document, binary, lean.bufferView) : null,
     }));
   }
 
   // The file is not needed any more.
   release(): void {
-    if (!this.keeps) this.views = [];
+    this.views = this.keeps
+      ? this.views.map(({ light, lean }) => ({ light: light.slice(), lean: lean?.slice() ?? null }))
+      : [];
   }
 
   async unpack(i: number): Promise<UnpackedLight> {

@@ -9,7 +9,7 @@ export const kReflectionGlsl = (unit: string): string => `
   uniform highp samplerCube uAround; // alpha: metres from the probe to what it sees
   uniform vec3 uProbeAt;
   uniform float uPicture; // which of those that are averaged; below zero: it stands alone
-  const float kSmooth = 0.12, kFaint = 0.08, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0, kNearM = 1.0;
+  const float kSmooth = 0.12, kFaint = 0.15, kStrong = 0.5, kRough = 0.8, kFarthestM = 200.0, kNearM = 1.0;
   const float kWideSteps = 14.0, kHalfTexel = 1.41421 / exp2(CUBEUV_MAX_MIP);
   const int kRays = 6, kMostRays = 12, kMostSteps = 24, kHalvings = 5;
 

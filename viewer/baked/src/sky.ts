@@ -3,6 +3,7 @@ import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
 import { drawInto, kAdditive, setFactors, sharedExponentTexture, type Part } from "./light_sum.js";
 import { kUnit } from "./units.js";
+import { screenTriangle } from "./screen_triangle.js";
 
 const kSumVertex = `
   in vec3 position;
@@ -75,16 +76,14 @@ export class Sky {
       side: THREE.DoubleSide, // the eyes of a probe are mirrored
       depthWrite: false,
     });
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const geometry = screenTriangle();
     this.mesh = new THREE.Mesh(geometry, material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = 1; // behind what is solid, before panes
   }
 
   add(layer: number, texels: Uint32Array<ArrayBuffer>, width: number, scale: number): void {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const geometry = screenTriangle();
     const height = texels.length / width;
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,

@@ -6,6 +6,7 @@ import { drawInto, type LightSum } from "./light_sum.js";
 import { kReadoutGlsl, readoutAt } from "./readout.js";
 import { kSunGlsl, type Sunlight } from "./sunlight.js";
 import { kUnit } from "./units.js";
+import { screenTriangle } from "./screen_triangle.js";
 
 const kVertex = `
   in vec3 position;
@@ -57,8 +58,7 @@ export class SpotMeter {
     sunlight: Sunlight,
     private readonly geometry: Geometry,
   ) {
-    const shape = new THREE.BufferGeometry();
-    shape.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const shape = screenTriangle();
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
       vertexShader: kVertex,

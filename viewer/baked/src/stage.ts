@@ -29,7 +29,7 @@ const kProbeHeightM = 1.5;
 const kStrayM = 3;
 const kMostBiasEv = 2;
 const kPictures = 8; // that are averaged where nothing moves
-const kCalmMs = 400; // after the last turn of a dial
+const kCalmMs = 400; // after the last turn of a dial, or step
 const kRestMs = 150; // after the last change, so that dials answer at once
 
 // Layers of light as they are packed, and how many bytes of them may be on the chip at once.
@@ -56,7 +56,7 @@ export class Stage {
   scale: Scale | null = null; // of false colours
   private readonly home: Home;
   private readonly layers: LayerKeeper<UnpackedLight>;
-  private lightMs = -Infinity; // when the light was last set
+  private touchedMs = -Infinity; // when light or eye were last set
   private room: number | null | undefined = undefined;
   private factors: Vec3[] | null = null;
   private wantedEv100: number | null = null;
@@ -87,7 +87,7 @@ export class Stage {
     const source: LayerSource<UnpackedLight> = {
       bytes: layer => bytesOfLayer(this.home, layer),
       unpack: light.unpack,
-      calm: () => this.calm(),
+      calm: isLate => this.calm(isLate),
     };
     this.layers = new LayerKeeper(chip, source, light.mostBytes, () => this.showLight(), light.failed);
     this.sunlight = new Sunlight(this.home);
@@ -129,7 +129,7 @@ export class Stage {
     const factors = layerFactors(this.home, state);
     if (sameFactors(this.factors, factors)) return;
     this.factors = factors;
-    this.lightMs = performance.now();
+    this.touchedMs = performance.now();
     this.layers.update(factors);
     this.sunlight.update(factors);
     this.sky.update(factors);
@@ -142,9 +142,10 @@ export class Stage {
     this.due = this.scaleDue = this.meterDue = true;
   }
 
-  // Until nobody moves a dial.
-  private async calm(): Promise<void> {
-    while (performance.now() - this.lightMs < kCalmMs) await new Promise(done => setTimeout(done, kCalmMs / 4));
+  // Until all light is there, and nobody turns a dial, walks or wears a headset.
+  private async calm(isLate: () => boolean): Promise<void> {
+    const busy = () => !this.complete || this.renderer.xr.isPresenting || performance.now() - this.touchedMs < kCalmMs;
+    while (busy() && !isLate()) await new Promise(done => setTimeout(done, kCalmMs / 8));
   }
 
   setEye({ position, yawDeg, pitchDeg, fovDeg }: Eye): void {
@@ -157,6 +158,7 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld(true);
     this.findRoom();
+    this.touchedMs = performance.now();
     this.due = this.meterDue = true;
   }
 

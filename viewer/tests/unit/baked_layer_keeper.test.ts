@@ -61,17 +61,19 @@ function kept(lux: readonly number[], mostBytes: number, factors: readonly numbe
   const unpacked: number[] = [];
   const failures: unknown[] = [];
   const seen: number[] = []; // each time that it has changed
-  const state = { failing: false, meanwhile: (): void => undefined };
+  const state = { failing: -1, moving: false, meanwhile: (): void => undefined };
   const source = {
     bytes: () => 1,
     unpack: async (layer: number) => {
       unpacked.push(layer);
       await Promise.resolve();
       state.meanwhile();
-      if (state.failing) throw new Error("full");
+      if (state.failing === layer) throw new Error("full");
       return lux[layer]!;
     },
-    calm: () => Promise.resolve(),
+    calm: async (isLate: () => boolean) => {
+      while (state.moving && !isLate()) await new Promise(done => setImmediate(done));
+    },
   };
   const keeper = new LayerKeeper(
     chip,
@@ -181,26 +183,50 @@ test("dials that are turned while the rest is added up again are not lost", asyn
   isNear(chip.shown, sumOf(lux, turns.at(-1)!));
 });
 
-test("a layer that cannot be unpacked is told, and asked for again with the next turn", async () => {
-  const lux = [100, 20];
-  const { chip, keeper, failures, state, settled } = kept(lux, 1, [1, 1]);
-  state.failing = true;
-  keeper.update(grey([1, 0.5]));
+test("a dial is answered while somebody walks", async () => {
+  const lux = [100, 20, 3, 7];
+  const { chip, keeper, seen, state, settled } = kept(lux, 1, [1, 1, 1, 1]);
+  state.moving = true;
+  const answered = async (expected: number) => {
+    const before = seen.length;
+    for (let i = 0; i < 100 && seen.length === before; ++i) await new Promise(done => setImmediate(done));
+    isNear(seen.at(-1)!, expected);
+  };
+  keeper.update(grey([1, 0.5, 1, 1]));
+  await answered(120);
+  keeper.update(grey([1, 0.5, 0, 1]));
+  await answered(117);
+  assert.ok(keeper.busy);
+  state.moving = false;
   await settled();
-  assert.equal(failures.length, 1);
+  isNear(chip.shown, 117);
+});
+
+test("a layer that cannot be unpacked is told, holds up no other, and is asked for again with the next turn", async () => {
+  const lux = [100, 20, 3];
+  const { chip, keeper, failures, state, settled } = kept(lux, 1, [1, 1, 1]);
+  state.failing = 1;
+  keeper.update(grey([1, 0.5, 0]));
+  await settled();
+  assert.equal(failures.length, 2); // the layer, and the rest that it is a part of
   isNear(chip.shown, 120);
-  state.failing = false;
-  keeper.update(grey([1, 0.25]));
+  state.failing = -1;
+  keeper.update(grey([1, 0.25, 0]));
   await settled();
   isNear(chip.shown, 105);
 });
 
 test("layers have what other textures and sums leave, and less on small devices", () => {
   const home = checkDocument(parseGlb(bakedHome()).json).extensions.ROOMLIGHT_light_layers;
-  assert.equal(bytesOfLayer(home, 0), 4 * 6 * 32 ** 2);
-  const sums = 3 * 8 * 128 * 64;
-  assert.equal(bytesForLayers(home, 0, undefined), 170e6 - sums);
-  assert.equal(bytesForLayers(home, 30e6, 8), 140e6 - sums);
-  assert.equal(bytesForLayers(home, 30e6, 2), 60e6 - sums);
-  assert.equal(bytesForLayers(home, 200e6, 8), 0);
+  const layer = 4 * 6 * 32 ** 2;
+  const sum = 8 * 128 * 64;
+  assert.equal(bytesOfLayer(home, 0), layer);
+  assert.equal(bytesForLayers(home, 0, undefined), Infinity);
+  assert.equal(bytesForLayers(home, 170e6 - 6 * layer - sum, undefined), Infinity);
+  assert.equal(bytesForLayers(home, 90e6 - 5 * layer - sum, 2), 5 * layer - 2 * sum < 0 ? 0 : 5 * layer - 2 * sum);
+  const many = { ...home, layers: Array.from({ length: 50 }, () => home.layers[0]!) };
+  assert.equal(bytesForLayers(many, 170e6 - 40 * layer - sum, undefined), 40 * layer - 2 * sum);
+  assert.equal(bytesForLayers(many, 170e6 - 40 * layer - sum, 2), 0);
+  const few = { ...home, layers: home.layers.slice(0, 5) };
+  assert.equal(bytesForLayers(few, 300e6, undefined), Infinity, "the rest would take as much");
 });
