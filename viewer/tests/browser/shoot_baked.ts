@@ -17,15 +17,21 @@ if (!path || !width || !height) throw new Error("usage: shoot_baked PAGE WIDTHxH
 const shots = JSON.parse(await text(process.stdin)) as Shot[];
 const browser = await launchWithWebGl();
 const costs = [];
+const viewport = { width, height };
+const link = pathToFileURL(path).href;
+const visit = await visitHome(
+  browser,
+  link + (shots[0]?.hash ?? ""),
+  { viewport, reducedMotion: "reduce" },
+  countTextureBytes,
+);
+const { page } = visit;
+const panel = page.getByLabel("Close controls", { exact: true });
+await page.locator("#view").waitFor();
+if (await panel.isVisible()) await panel.click();
+await page.addStyleTag({ content: "body > :not(#view) { visibility: hidden !important; }" });
 for (const { hash, file } of shots) {
-  const viewport = { width, height };
-  const link = pathToFileURL(path).href + hash;
-  const visit = await visitHome(browser, link, { viewport, reducedMotion: "reduce" }, countTextureBytes);
-  const { page } = visit;
-  const panel = page.getByLabel("Close controls", { exact: true });
-  await page.locator("#view").waitFor();
-  if (await panel.isVisible()) await panel.click();
-  await page.addStyleTag({ content: "body > :not(#view) { visibility: hidden !important; }" });
+  await page.evaluate(to => void (location.hash = to), hash);
   await visit.settled();
   const view = await page.locator("#view").boundingBox();
   if (view?.width !== width || view.height !== height)
@@ -33,7 +39,7 @@ for (const { hash, file } of shots) {
   writeFileSync(file, await page.screenshot());
   const told = await page.locator("#view").evaluate(v => ({ ...(v as HTMLElement).dataset }));
   costs.push({ ...told, textureBytes: await textureBytes(page) });
-  await visit.end();
 }
+await visit.end();
 await browser.close();
 process.stdout.write(JSON.stringify(costs));

@@ -202,7 +202,7 @@ test("a dial is answered while somebody walks", async () => {
   isNear(chip.shown, 117);
 });
 
-test("a layer that cannot be unpacked is told, holds up no other, and is asked for again with the next turn", async () => {
+test("a layer that cannot be unpacked holds up no other, and is asked for again with the next turn", async () => {
   const lux = [100, 20, 3];
   const { chip, keeper, failures, state, settled } = kept(lux, 1, [1, 1, 1]);
   state.failing = 1;
