@@ -1,12 +1,14 @@
-// Panes hide a part of what is behind them, so that those further off are drawn first. Triangles are put in order by
-// their middles: right for sheets of one shape behind each other, as glass and table tops are.
+// Panes hide a part of what is behind them, so that those further off are drawn first. Sheets are put in order by their
+// middles: right for those of one shape behind each other, as glass and table tops are, however they are cut into
+// triangles.
 import * as THREE from "three";
+import { middleOf, sheetsOf } from "./sheets.js";
 
 const kMoved2 = 0.05 ** 2; // m2: a shorter way changes no order that is seen
 const kMostTriangles = 30000; // more are drawn as they come
 
 export class PaneOrder {
-  private readonly middles: Float32Array;
+  private readonly middles: Float32Array; // of each triangle's sheet
   private readonly source: Uint32Array;
   private readonly order: Uint32Array;
   private readonly distances: Float32Array;
@@ -23,8 +25,10 @@ export class PaneOrder {
     this.order = Uint32Array.from({ length: count }, (_, i) => i);
     this.distances = new Float32Array(count);
     this.middles = new Float32Array(3 * count);
-    for (let i = 0; i < 3 * count; ++i)
-      for (let c = 0; c < 3; ++c) this.middles[3 * Math.floor(i / 3) + c]! += positions[3 * index[i]! + c]! / 3;
+    for (const sheet of sheetsOf(index, positions, count)) {
+      const middle = middleOf(sheet, index, positions);
+      for (const triangle of sheet) this.middles.set(middle, 3 * triangle);
+    }
   }
 
   // Puts them in order as they are seen from there.
