@@ -22,6 +22,8 @@ constexpr int kSurfaces = 12;                       // along one ray
 constexpr float kGrazing = 0.01f;  // cosine: rays along a surface slip through the edges of what is closed
 constexpr float kSamePlaceM = 0.0003f;  // of two surfaces so near to each other one is seen
 constexpr size_t kFewEyes = 6;  // that see each other, and no others of their room: they are shut in
+constexpr size_t kAskedEyes = 8;  // of those shut in: whether it is the inside of a thing
+constexpr uint32_t kAskedRays = 32;  // of each
 
 bool letsThrough(const Material& m) {
   return m.alphaMode != AlphaMode::Opaque || m.transmission > 0 || m.glazing.panes > 0;
@@ -55,15 +57,21 @@ class EyeGrid {
       }
     }
   }
-  // Those with a way to many others: one inside a wardrobe has none.
+  // Those with a way to many others: one inside a wardrobe has none. Nor do those in a large hollow block count.
   void addOpen(std::vector<Vec3>& out) {
-    std::vector<size_t> sizes;
+    std::vector<std::vector<Vec3>> regions;
     for (auto& [place, eye] : eyes_) {
-      if (eye.region >= 0) continue;
-      sizes.push_back(fill(place, static_cast<int>(sizes.size())));
+      if (eye.region < 0) fill(place, static_cast<int>(regions.size())), regions.emplace_back();
+      regions[static_cast<size_t>(eye.region)].push_back(eye.position);
+    }
+    size_t most = 0;
+    for (const auto& region : regions) most = std::max(most, region.size());
+    for (auto& region : regions) {
+      if (region.size() <= std::min(kFewEyes, eyes_.size() / 2) || (region.size() < most && isInsideOfThing(region)))
+        region.clear();
     }
     for (const auto& [place, eye] : eyes_) {
-      if (sizes[static_cast<size_t>(eye.region)] > std::min(kFewEyes, eyes_.size() / 2)) out.push_back(eye.position);
+      if (!regions[static_cast<size_t>(eye.region)].empty()) out.push_back(eye.position);
     }
   }
 
@@ -73,7 +81,7 @@ class EyeGrid {
     Vec3 position;
     int region;
   };
-  size_t fill(const Place& first, int region) {
+  void fill(const Place& first, int region) {
     std::vector<Place> ring{first};
     eyes_[first].region = region;
     for (size_t k = 0; k < ring.size(); ++k) {
@@ -90,7 +98,21 @@ class EyeGrid {
         }
       }
     }
-    return ring.size();
+  }
+
+  // Whether eyes see backs of surfaces more than all else: walls of a room turn their faces to it.
+  bool isInsideOfThing(std::span<const Vec3> eyes) const {
+    uint32_t backs = 0, rays = 0;
+    for (size_t k = 0; k < kAskedEyes; ++k) {
+      const Vec3 eye = eyes[k * eyes.size() / kAskedEyes];
+      for (uint32_t i = 0; i < kAskedRays; ++i, ++rays) {
+        Sampler sampler(k, i, 1);
+        const Ray ray{eye, sampleSphere(sampler.next2())};
+        const Hit hit = rays_.intersect(ray);
+        backs += hit.valid() && meetsBack(rays_.scene(), hit, ray.direction);
+      }
+    }
+    return 2 * backs > rays;
   }
 
   const RayScene& rays_;

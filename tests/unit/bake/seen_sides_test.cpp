@@ -32,6 +32,31 @@ TEST(SeenSides, ofABoxInARoomTheOutside) {
   }
 }
 
+TEST(SeenSides, ofALargeHollowBlockTheOutsideButOfAClosetTheInside) {
+  Scene scene;
+  const int grey = addMaterial(scene, lambertian(0.5f));
+  addRoom(scene, {0, 0, 0}, {6, 2.5f, 6}, std::vector<int>(6, grey));
+  const auto block = static_cast<uint32_t>(scene.instances.size());
+  addBox(scene, {1, 0, 1}, {2.8f, 2, 2.8f}, grey);  // some twenty eyes are in it
+  const auto closet = static_cast<uint32_t>(scene.instances.size());
+  addRoom(scene, {3.5f, 0.01f, 3.5f}, {5.3f, 2.3f, 5.3f}, std::vector<int>(6, grey));
+  const auto end = static_cast<uint32_t>(scene.instances.size());
+  scene.rooms = {roomOf(6, 6)};
+  const RayScene rays(scene);
+  const SeenSides seen = seenFrom(rays, eyesIn(rays), 1 << 17);
+  const auto sides = [&](uint32_t from, uint32_t to, bool back) {
+    size_t sum = 0;
+    for (uint32_t i = from; i < to; ++i) {
+      for (uint32_t t = 0; t < scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); ++t)
+        sum += seen.seen(i, t, back);
+    }
+    return sum;
+  };
+  EXPECT_EQ(sides(block, closet, true), 0u);
+  EXPECT_EQ(sides(block, closet, false), 8u);  // its top is above all eyes
+  EXPECT_EQ(sides(closet, end, false), 12u);
+}
+
 TEST(SeenSides, theCameraInUseCountsFromOutsideToo) {
   Scene scene;
   scene.rooms = {roomOf(4, 3)};
