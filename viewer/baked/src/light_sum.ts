@@ -3,7 +3,7 @@
 // are not on the chip are in a sum of their own, the rest (layer_keeper.ts).
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
-import { screenTriangle } from "./screen_triangle.js";
+import { kScreenVertex, screenTriangle } from "./screen_triangle.js";
 import { kUnit } from "./units.js";
 
 export const kRowTexels = 2048; // of the textures that hold a layer's tiles, one texel after the other
@@ -40,9 +40,6 @@ const kFragment = `
     outColor = vec4(clamp(value * uFactor, -65000.0, 65000.0), 1.0);
   }`;
 
-const kRestVertex = `
-  in vec3 position;
-  void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 const kRestFragment = `
   precision highp float;
   precision highp sampler2D;
@@ -108,7 +105,7 @@ export class LightSum {
     this.scene.matrixWorldAutoUpdate = false;
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
-      vertexShader: kRestVertex,
+      vertexShader: kScreenVertex,
       fragmentShader: kRestFragment,
       uniforms: { uRest: { value: null } },
       ...kAdditive,

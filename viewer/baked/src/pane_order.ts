@@ -2,7 +2,7 @@
 // middles: right for those of one shape behind each other, as glass and table tops are, however they are cut into
 // triangles.
 import * as THREE from "three";
-import { middleOf, sheetsOf } from "./sheets.js";
+import { sheetsOf } from "./sheets.js";
 
 const kMoved2 = 0.05 ** 2; // m2: a shorter way changes no order that is seen
 const kMostTriangles = 30000; // more are drawn as they come
@@ -25,10 +25,8 @@ export class PaneOrder {
     this.order = Uint32Array.from({ length: count }, (_, i) => i);
     this.distances = new Float32Array(count);
     this.middles = new Float32Array(3 * count);
-    for (const sheet of sheetsOf(index, positions, count)) {
-      const middle = middleOf(sheet, index, positions);
-      for (const triangle of sheet) this.middles.set(middle, 3 * triangle);
-    }
+    for (const { triangles, middle } of sheetsOf(index, positions, count))
+      for (const triangle of triangles) this.middles.set(middle, 3 * triangle);
   }
 
   // Puts them in order as they are seen from there.

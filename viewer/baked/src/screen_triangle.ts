@@ -1,5 +1,9 @@
-// A triangle that covers all of a target.
+// A triangle that covers all of a target, and the shader of its corners.
 import * as THREE from "three";
+
+export const kScreenVertex = `
+  in vec3 position;
+  void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 
 export function screenTriangle(): THREE.BufferGeometry {
   const geometry = new THREE.BufferGeometry();

@@ -1,5 +1,5 @@
 // Sheets: triangles of one plane that hang together.
-import { cross, dot, length, normalize, subtract, type Vec3 } from "../../src/vector.js";
+import { add, cross, dot, length, normalize, scale, subtract, type Vec3 } from "../../src/vector.js";
 
 const kAlike = 0.999; // cosine between normals
 const kInPlaneM = 0.001;
@@ -8,13 +8,13 @@ const kMostPlaces = 2 ** 26;
 const edgeKey = (a: number, b: number): number => Math.min(a, b) * kMostPlaces + Math.max(a, b);
 
 class Triangles {
-  readonly edges: readonly (readonly number[])[]; // of each triangle, by the places of its corners
+  private readonly edges: readonly (readonly number[])[]; // of each triangle, by the places of its corners
   private readonly byEdge = new Map<number, number[]>();
 
   constructor(
     private readonly index: Uint32Array,
     private readonly positions: Float32Array,
-    readonly count: number,
+    count: number,
   ) {
     const places = new Map<string, number>(); // vertices of one place are one
     const placeOf = (corner: Vec3) => {
@@ -52,41 +52,43 @@ class Triangles {
   }
 }
 
-// The triangles of each sheet, found from the largest on: small ones tell their plane badly.
-export function sheetsOf(index: Uint32Array, positions: Float32Array, count: number): number[][] {
-  const triangles = new Triangles(index, positions, count);
-  const areas = Float64Array.from({ length: count }, (_, t) => length(triangles.normal(t)) / 2);
+export interface Sheet {
+  readonly triangles: readonly number[];
+  readonly middle: Vec3;
+}
+
+// Found from the largest triangle on: small ones tell their plane badly.
+export function sheetsOf(index: Uint32Array, positions: Float32Array, count: number): Sheet[] {
+  const all = new Triangles(index, positions, count);
+  const areas = Float64Array.from({ length: count }, (_, t) => length(all.normal(t)) / 2);
   const known = new Uint8Array(count);
-  const sheets: number[][] = [];
+  const sheets: Sheet[] = [];
   for (const first of Array.from(areas.keys()).sort((a, b) => areas[b]! - areas[a]! || a - b)) {
     if (known[first]) continue;
-    const n = normalize(triangles.normal(first));
-    const [origin] = triangles.corners(first);
+    const n = normalize(all.normal(first));
+    const [origin] = all.corners(first);
     const inPlane = (t: number) =>
-      triangles.corners(t).every(p => Math.abs(dot(n, subtract(p, origin))) < kInPlaneM) &&
-      Math.abs(dot(n, normalize(triangles.normal(t), n))) > kAlike;
-    const sheet = [first];
+      all.corners(t).every(p => Math.abs(dot(n, subtract(p, origin))) < kInPlaneM) &&
+      Math.abs(dot(n, normalize(all.normal(t), n))) > kAlike;
+    const triangles = [first];
     known[first] = 1;
-    for (let i = 0; i < sheet.length; ++i)
-      for (const t of triangles.beside(sheet[i]!))
+    for (let i = 0; i < triangles.length; ++i)
+      for (const t of all.beside(triangles[i]!))
         if (!known[t] && inPlane(t)) {
           known[t] = 1;
-          sheet.push(t);
+          triangles.push(t);
         }
-    sheets.push(sheet);
+    sheets.push({ triangles, middle: middleOf(all, triangles, areas) });
   }
   return sheets;
 }
 
-// Of the triangles together, by area.
-export function middleOf(sheet: readonly number[], index: Uint32Array, positions: Float32Array): Vec3 {
-  const triangles = new Triangles(index, positions, 0);
-  let area = 0;
-  const sum: [number, number, number] = [0, 0, 0];
-  for (const t of sheet) {
-    const own = Math.max(length(triangles.normal(t)), 1e-12);
-    area += own;
-    for (const corner of triangles.corners(t)) for (let c = 0; c < 3; ++c) sum[c]! += (own * corner[c]!) / 3;
-  }
-  return [sum[0] / area, sum[1] / area, sum[2] / area];
+// Of triangles together, by area.
+function middleOf(all: Triangles, triangles: readonly number[], areas: Float64Array): Vec3 {
+  const weights = triangles.map(t => Math.max(areas[t]!, 1e-12));
+  const sum = weights.reduce((a, b) => a + b, 0);
+  return triangles.reduce<Vec3>(
+    (middle, t, i) => all.corners(t).reduce((m, corner) => add(m, scale(corner, weights[i]! / (3 * sum))), middle),
+    [0, 0, 0],
+  );
 }

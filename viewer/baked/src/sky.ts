@@ -2,12 +2,9 @@
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
 import { drawInto, kAdditive, setFactors, sharedExponentTexture, type Part } from "./light_sum.js";
+import { kScreenVertex, screenTriangle } from "./screen_triangle.js";
 import { kUnit } from "./units.js";
-import { screenTriangle } from "./screen_triangle.js";
 
-const kSumVertex = `
-  in vec3 position;
-  void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 const kSumFragment = `
   precision highp float;
   precision highp int;
@@ -87,7 +84,7 @@ export class Sky {
     const height = texels.length / width;
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
-      vertexShader: kSumVertex,
+      vertexShader: kScreenVertex,
       fragmentShader: kSumFragment,
       uniforms: {
         uTexels: { value: sharedExponentTexture(texels, width) },

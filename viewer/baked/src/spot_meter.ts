@@ -4,13 +4,10 @@ import type { Hit } from "./bvh.js";
 import type { Geometry } from "./geometry.js";
 import { drawInto, type LightSum } from "./light_sum.js";
 import { kReadoutGlsl, readoutAt } from "./readout.js";
+import { kScreenVertex, screenTriangle } from "./screen_triangle.js";
 import { kSunGlsl, type Sunlight } from "./sunlight.js";
 import { kUnit } from "./units.js";
-import { screenTriangle } from "./screen_triangle.js";
 
-const kVertex = `
-  in vec3 position;
-  void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 const kFragment = `
   precision highp float;
   precision highp int;
@@ -61,7 +58,7 @@ export class SpotMeter {
     const shape = screenTriangle();
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
-      vertexShader: kVertex,
+      vertexShader: kScreenVertex,
       fragmentShader: kFragment,
       uniforms: {
         uLight: { value: light.target.texture },

@@ -76,7 +76,7 @@ test("sides of a tumbler are sheets of their own, the far ones first", () => {
   );
   const sheets = sheetsOf(index, positions, 2 * sides);
   assert.equal(sheets.length, sides);
-  assert.ok(sheets.every(sheet => sheet.length === 2));
+  assert.ok(sheets.every(sheet => sheet.triangles.length === 2));
   const drawn = new THREE.BufferAttribute(index.slice(), 1);
   new PaneOrder(index, positions, drawn).sort(new THREE.Vector3(5, 0.5, 0));
   const xOf = (t: number) => positions[3 * drawn.array[3 * t]!]!;
