@@ -18,8 +18,8 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr int kMostOutside = 64;       // texels of an edge of what lies in no room, such as the ground,
-constexpr float kLargeM2 = 60;         // or is so large
+constexpr int kMostNearThings = 128;  // likewise, where things stand on it
+constexpr float kLargeM2 = 60;        // what is so large counts as outside
 constexpr int kMost = 1024;            // texels of an edge
 constexpr float kAlongStrips = 4;      // so much longer are texels of strips as narrow as one
 constexpr float kLongestTexelM = 2, kLongerTexels = 1.4f;  // until an atlas fits
@@ -32,7 +32,8 @@ constexpr float kReachTexels = 1.5f;   // and one so near is read by linear inte
 // Large ones outside, such as the ground, are coarse; light varies little along a strip as narrow as a texel.
 ChartGrid gridOf(const Chart& chart, float texelM, bool outside) {
   const float narrow = std::min(chart.sizeM.x, chart.sizeM.y) < texelM ? kAlongStrips : 1;
-  const int most = outside || chart.areaM2 > kLargeM2 ? kMostOutside : kMost;
+  const int mostCoarse = chart.ring == 0 ? kMostNearThings : kMostOutside;
+  const int most = outside || chart.areaM2 > kLargeM2 ? mostCoarse : kMost;
   const auto across = [&](float sizeM) {
     return std::clamp(static_cast<int>(std::ceil(std::min(sizeM / (texelM * narrow), 1e6f))) + 1, 2, most);
   };

@@ -12,6 +12,7 @@
 
 namespace roomlight::bake {
 
+constexpr int kMostOutside = 64;       // texels of an edge of what lies in no room, such as the ground
 constexpr int kMostAtlasEdge = 4096;  // texels: what graphics chips of old phones hold
 
 struct AtlasSettings {

@@ -67,12 +67,13 @@ Result<LaidOut> layOut(const RayScene& home, bool sun, const BakeSettings& setti
   ofAtlas.coarser = coarserFar(scene, eyes);
   std::vector<float> moved = stages.run(
       "simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM, ofAtlas.coarser); });
+  const Rings rings = cutIntoRings(scene, static_cast<float>(kMostOutside) * settings.atlas.texelM);
   const RayScene rays(scene);
   const SeenSides seen = stages.run("seen", [&](const Progress&) {
     return seenFrom(rays, eyes, std::max(settings.seenRays, eyes.size() * settings.raysAnEye));
   });
   return stages.run("charts", [&](const Progress&) -> Result<LaidOut> {
-    Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), ofAtlas);
+    Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts, rings), ofAtlas);
     if (!atlas) return Error{atlas.error()};
     LitPlaces lit = litPlacesOf(atlas.value(), rays, seen, settings.placesApartM);
     std::vector<bool> buried;
@@ -105,6 +106,26 @@ Result<FileParts> partsOf(const LaidOut& laid, const BakeWish& wish, const BakeS
   const double bytesATexel =
       kBytesATexel * static_cast<double>(layers) + (settings.glb.lightMap ? kBytesOfLightMap : 0);
   return FileParts{size - textures, textures, grows * bytesATexel * static_cast<double>(laid.atlas.elements.size())};
+}
+
+constexpr float kLookedAtM = 2;      // things smaller than that are looked at from nearer,
+constexpr float kLeastScale = 0.05f;  // down to a tenth of a metre
+
+// Where a scene has no rooms its things are what is looked at: of small ones all lengths are in proportion.
+void fitToThings(const Scene& scene, BakeSettings& s) {
+  if (!scene.rooms.empty()) return;
+  Bounds3 whole;
+  for (const Instance& i : scene.instances) {
+    const Bounds3 bounds = instanceBounds(scene, i);
+    if (!bounds.empty()) whole.add(bounds.lo), whole.add(bounds.hi);
+  }
+  if (whole.empty()) return;
+  const Bounds3 things = boundsOfThings(scene, maxComponent(whole.size()));
+  const float extentM = maxComponent((things.empty() ? whole : things).size());
+  const float scale = std::clamp(extentM / kLookedAtM, kLeastScale, 1.0f);
+  for (float* length : {&s.charts.texelM, &s.atlas.texelM, &s.atlas.vertexM, &s.placesApartM, &s.simplifyM})
+    *length *= scale;
+  s.charts.smallM2 *= scale * scale;
 }
 
 // With settings coarse enough for the budget.
@@ -197,6 +218,7 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   Scene whole = withAllLamps(home, wish.offLamps);
   keepRooms(whole, wish.rooms);
   BakeSettings settings = wanted;
+  fitToThings(whole, settings);
   const Result<LaidOut> laidOut = layOutWithin(whole, wish, settings, stages);
   if (!laidOut) return Error{laidOut.error()};
   if (stages.cancelled()) return BakedHome{};

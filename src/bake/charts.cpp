@@ -21,6 +21,7 @@ struct Patchwork {
   std::vector<float> areasM2;
   std::vector<std::array<uint32_t, 3>> neighbours;  // kNone: none
   std::vector<uint32_t> piece;  // of connected triangles, by its first
+  std::vector<uint8_t> ring;
   size_t size() const { return corners.size(); }
 };
 
@@ -88,9 +89,9 @@ void findPieces(Patchwork& work) {
   }
 }
 
-Patchwork patchworkOf(const Scene& scene, uint32_t instance) {
+Patchwork patchworkOf(const Scene& scene, uint32_t instance, const Rings& rings) {
   const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[instance].mesh)];
-  Patchwork work{instance, {}, {}, {}, {}, {}};
+  Patchwork work{instance, {}, {}, {}, {}, {}, {}};
   for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
     const TriangleVertices v = worldTriangle(scene, instance, t);
     const Vec3 n = cross(v.b - v.a, v.c - v.a);
@@ -101,6 +102,9 @@ Patchwork patchworkOf(const Scene& scene, uint32_t instance) {
     work.areasM2.push_back(valid ? twice / 2 : 0);
     work.neighbours.push_back({kNone, kNone, kNone});
   }
+  const auto number = static_cast<size_t>(scene.instances[instance].mesh);
+  if (!rings.empty()) work.ring = rings[number];
+  work.ring.resize(work.size(), kNoRing);
   joinNeighbours(mesh, work);
   findPieces(work);
   return work;
@@ -179,7 +183,7 @@ class ChartMaker {
   }
   Chart grown(uint32_t first, bool back) {
     Chart chart;
-    chart.instance = work_.instance, chart.back = back;
+    chart.instance = work_.instance, chart.back = back, chart.ring = work_.ring[first];
     const Vec3 n = work_.normals[first];
     const float least = std::cos(settings_.bendRad);
     chart.triangles.assign(1, first), taken_[first] = true;
@@ -187,7 +191,8 @@ class ChartMaker {
       const uint32_t t = chart.triangles[i];
       chart.areaM2 += work_.areasM2[t];
       for (const uint32_t next : work_.neighbours[t]) {
-        if (next == kNone || taken_[next] || dot(work_.normals[next], n) < least) continue;
+        if (next == kNone || taken_[next] || work_.ring[next] != chart.ring) continue;
+        if (dot(work_.normals[next], n) < least) continue;
         taken_[next] = true, chart.triangles.push_back(next);
       }
     }
@@ -213,10 +218,11 @@ class ChartMaker {
 
 }  // namespace
 
-std::vector<Chart> chartsOf(const Scene& scene, const SeenSides& seen, const ChartSettings& settings) {
+std::vector<Chart> chartsOf(const Scene& scene, const SeenSides& seen, const ChartSettings& settings,
+                            const Rings& rings) {
   std::vector<Chart> charts;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const Patchwork work = patchworkOf(scene, i);
+    const Patchwork work = patchworkOf(scene, i, rings);
     ChartMaker maker(work, seen, settings);
     maker.add(false, charts);
     maker.add(true, charts);

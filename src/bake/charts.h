@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/rings.h"
 #include "bake/seen_sides.h"
 #include "scene/scene.h"
 
@@ -21,6 +22,7 @@ struct Chart {
   uint32_t instance = 0;
   bool back = false;     // the side that is lit
   bool byVertices = false;
+  uint8_t ring = kNoRing;  // of the ground
   std::vector<uint32_t> triangles;  // of the instance's mesh
   Vec3 normal;  // unit, of the lit side; charts by texels are seen along it
   Vec3 alongU, alongV;  // unit axes of the plane
@@ -29,7 +31,9 @@ struct Chart {
   float areaM2 = 0;
 };
 
-// All that is seen of the scene, but for triangles without area. In the order of the instances.
-std::vector<Chart> chartsOf(const Scene& scene, const SeenSides& seen, const ChartSettings& settings);
+// All that is seen of the scene, but for triangles without area. In the order of the instances. `rings`: of its meshes,
+// each ring is a chart of its own; empty: there are none.
+std::vector<Chart> chartsOf(const Scene& scene, const SeenSides& seen, const ChartSettings& settings,
+                            const Rings& rings = {});
 
 }  // namespace roomlight::bake

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "scene/mesh_vertices.h"
 
 namespace roomlight::bake {
 namespace {
@@ -63,17 +64,10 @@ std::vector<Corners> cornersOf(const std::vector<uint32_t>& indices) {  // of ea
   return out;
 }
 
-template <class T>
-void repeat(std::vector<T>& values, uint32_t i) {
-  if (!values.empty()) values.push_back(T(values[i]));
-}
-
 uint32_t withNormal(Mesh& mesh, uint32_t vertex, Vec3 normal) {
-  repeat(mesh.positions, vertex), repeat(mesh.tangents, vertex), repeat(mesh.tangentSigns, vertex);
-  repeat(mesh.uv[0], vertex), repeat(mesh.uv[1], vertex);
-  repeat(mesh.colors, vertex), repeat(mesh.colorAlphas, vertex);
-  mesh.normals.push_back(normal);
-  return static_cast<uint32_t>(mesh.normals.size() - 1);
+  const uint32_t added = repeatVertex(mesh, vertex);
+  mesh.normals[added] = normal;
+  return added;
 }
 
 // The smooth normals of a ceiling's edge lean outwards, and vertices beside it stand upright. Without those the whole

@@ -137,6 +137,27 @@ TEST_F(Bake, theHomeIsLitAsItIs) {
   EXPECT_NEAR(light[1] / light[0], 1, 0.01);
 }
 
+// It is looked at from nearer than a room.
+TEST_F(Bake, ofASmallThingAloneTexelsAreSmallToo) {
+  Scene scene;
+  addBox(scene, {0, 0, 0}, {0.4f, 0.4f, 0.4f}, addMaterial(scene, lambertian(0.5f)));
+  scene.lamps = {pointLamp({1, 1, 1}, kCandela)};
+  scene.cameras = {defaultCamera(scene)};
+  const Result<BakedHome> alone = bakeHome(scene, {}, settings_, stages_);
+  ASSERT_TRUE(alone) << alone.error();
+  EXPECT_NEAR(alone.value().settings.atlas.texelM, 0.2f * settings_.atlas.texelM, 1e-5f);
+  addRectangle(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, 0);
+  const Result<BakedHome> onGround = bakeHome(scene, {}, settings_, stages_);
+  ASSERT_TRUE(onGround) << onGround.error();
+  EXPECT_EQ(onGround.value().settings.atlas.texelM, alone.value().settings.atlas.texelM);
+  Room floor;
+  floor.floor = {{-2, -2}, {-2, 2}, {2, 2}, {2, -2}};
+  scene.rooms = {floor};
+  const Result<BakedHome> inRoom = bakeHome(scene, {}, settings_, stages_);
+  ASSERT_TRUE(inRoom) << inRoom.error();
+  EXPECT_EQ(inRoom.value().settings.atlas.texelM, settings_.atlas.texelM);
+}
+
 TEST_F(Bake, theFileOpensAsAnyGltfAndHoldsWhatIsSeen) {
   const Scene scene = room(0.5f);
   const Result<BakedHome> baked = bakeHome(scene, {}, settings_, stages_);
