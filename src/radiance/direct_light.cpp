@@ -12,6 +12,7 @@ namespace roomlight {
 namespace {
 
 constexpr float kWide = 0.5f;  // a light's size over its distance
+constexpr float kByOthers = 0.25f;  // of samples of the sky that links share: drawn as a brick's neighbours tell
 
 // Of each voxel of a brick and each face: 1 where a slot has rays that arrive, 2 where it has some that do not.
 class Shadows {
@@ -284,32 +285,72 @@ void DirectLight::suns(size_t brick, std::span<const Bounds3> near, std::span<Ve
   for (size_t i = 0; i < lights_.sunCount(); ++i) trace(brick, {1, perDelta()}, marks, lux, sampleOf(i));
 }
 
+LightSample DirectLight::skySample(const SkyGuide& guide, int32_t which, size_t s, uint32_t k) const {
+  if (which < 0) return {};
+  Sampler sampler(paths_.key(s), k, settings_.seed + 4);
+  const Vec2 u = sampler.next2();
+  return sampleSkyGuided(guide, which, lights_, u, sampler.next1());
+}
+
+void DirectLight::keepWays(const SkyGuide& guide, size_t brick, SkyDirections& ways) const {
+  const auto [first, last] = slotsOfBrick(voxels_, brick);
+  for (size_t s = first; s < last; ++s) {
+    for (uint32_t k = 0; k < kSkySamples; ++k) {
+      const LightSample light = skySample(guide, guide.guideOfBrick[brick][voxels_.slots[s].face], s, k);
+      ways[s][k] = light.valid() ? SkyDirection(light.wi) : SkyDirection();
+    }
+  }
+}
+
 void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyDirections& ways,
                       std::span<Vec3> lux) {
   if (guide.guideOfBrick.empty()) return;
-  const auto& guides = guide.guideOfBrick[brick];
-  const auto sample = [&](size_t s, uint32_t k, Vec3) {
-    const int32_t which = guides[voxels_.slots[s].face];
-    if (which < 0) return LightSample{};
-    Sampler sampler(paths_.key(s), k, settings_.seed + 4);
-    const Vec2 u = sampler.next2();
-    return sampleSkyGuided(guide, which, lights_, u, sampler.next1());
-  };
-  if (near.empty()) {
-    const auto [first, last] = slotsOfBrick(voxels_, brick);
-    for (size_t s = first; s < last; ++s) {
-      for (uint32_t k = 0; k < kSkySamples; ++k) {
-        const LightSample light = sample(s, k, {});
-        ways[s][k] = light.valid() ? SkyDirection(light.wi) : SkyDirection();
-      }
-    }
-  }
+  if (near.empty()) keepWays(guide, brick, ways);
   const auto findMarks = [&](Marks& marks) {
     findCrossed(
         brick, kSkySamples, near, SkyDirection::kOff,
         [&](size_t s, uint32_t k, Vec3) { return Segment{ways[s][k].direction()}; }, marks);
   };
-  renew(brick, {kSkySamples / 2, kSkySamples}, near, lux, findMarks, sample);
+  renew(brick, {kSkySamples / 2, kSkySamples}, near, lux, findMarks, [&](size_t s, uint32_t k, Vec3) {
+    return skySample(guide, guide.guideOfBrick[brick][voxels_.slots[s].face], s, k);
+  });
+}
+
+void DirectLight::skyWithLinks(const SharedSky& guide, size_t brick, std::span<Vec3> lux) {
+  if (guide.own.guideOfBrick.empty()) return;
+  const auto guideOf = [&](const SkyGuide& of, size_t s) { return of.guideOfBrick[brick][voxels_.slots[s].face]; };
+  // Links a steradian, and the part of the light in a direction that is theirs.
+  const auto density = [&](size_t s, Vec3 d) {
+    return static_cast<float>(guide.links.count(s)) * std::max(0.0f, dot(d, voxels_.slots[s].normal)) / kPi;
+  };
+  const auto ofLinks = [&](float links, float ofOthers) {
+    return links > 0 ? links / (links + static_cast<float>(kSkySamples) * ofOthers) : 0;
+  };
+  trace(brick, {kSkySamples / 2, kSkySamples}, {}, lux, [&](size_t s, uint32_t k, Vec3) {
+    const int32_t own = guideOf(guide.own, s), others = guideOf(guide.others, s);
+    if (own < 0) return LightSample{};
+    Sampler sampler(paths_.key(s), k, settings_.seed + 4);
+    const Vec2 u = sampler.next2();
+    const float choice = sampler.next1();
+    SkyDistribution::Sample drawn = sampler.next1() < kByOthers
+                                        ? drawSkyGuided(guide.others, others, lights_, u, choice)
+                                        : drawSkyGuided(guide.own, own, lights_, u, choice);
+    const float ofOthers = pdfSkyGuided(guide.others, others, lights_, drawn.uv);
+    drawn.pdf = (1 - kByOthers) * pdfSkyGuided(guide.own, own, lights_, drawn.uv) + kByOthers * ofOthers;
+    LightSample light = skyLight(lights_, drawn);
+    if (light.valid()) light.radiance *= 1 - ofLinks(density(s, light.wi), ofOthers);
+    return light;
+  });
+  size_t rays = 0;
+  for (const SkyLink& l : linksToSky(slots_, brick, guide.links, rays)) {
+    const size_t s = l.link.slot;
+    const float a = attenuation(settings_.attenuation, voxels_.slots[s].normal, l.direction),
+                links = density(s, l.direction);
+    if (guideOf(guide.own, s) < 0 || !(a > 0 && links > 0)) continue;
+    const float part = ofLinks(links, pdfSkyGuided(guide.others, guideOf(guide.others, s), lights_, l.direction));
+    lux[s] += lights_.sky().radiance(l.direction) * l.left * (a * part / links);
+  }
+  count_ += rays;
 }
 
 void DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "radiance/brick_importance.h"
+#include "radiance/links.h"
 #include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
 #include "radiance/sky_guide.h"
@@ -19,6 +20,7 @@ class DirectLight {
               const BrickImportance& importance, const RadianceSettings& settings)
       : rays_(rays),
         lights_(lights),
+        slots_(slots),
         voxels_(slots.voxels),
         paths_(slots.paths),
         seen_(seen),
@@ -37,6 +39,14 @@ class DirectLight {
   // `ways`: of its slots, written where all is traced and read where only what boxes concern is.
   void sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyDirections& ways,
            std::span<Vec3> lux);
+  // All of it, shared with links: what single samples seldom find, but then far too much of, they know (multiple
+  // importance sampling, Veach 1997). `guide.others`: by it they share; a brick's own links must not decide on it, or
+  // those that find light would count for less.
+  struct SharedSky {
+    const SkyGuide &own, &others;
+    const Links& links;
+  };
+  void skyWithLinks(const SharedSky& guide, size_t brick, std::span<Vec3> lux);
   // Of one emissive mesh alone, and of all as one light: fewer rays than one by one.
   void emitter(size_t index, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   void emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
@@ -67,6 +77,8 @@ class DirectLight {
   template <class FindMarks, class Sample>
   void renew(size_t brick, Samples samples, std::span<const Bounds3> near, std::span<Vec3> lux,
              const FindMarks& findMarks, const Sample& sample);
+  LightSample skySample(const SkyGuide& guide, int32_t which, size_t s, uint32_t k) const;
+  void keepWays(const SkyGuide& guide, size_t brick, SkyDirections& ways) const;
   uint32_t perDelta() const {
     return static_cast<uint32_t>(std::clamp(settings_.directSamples / 2, 1, 4));
   }  // of a lamp or sun
@@ -74,6 +86,7 @@ class DirectLight {
 
   const RayScene& rays_;
   const Lights& lights_;
+  const SlotSampling slots_;
   const Voxels& voxels_;
   const SlotPaths& paths_;
   const SeenLights& seen_;

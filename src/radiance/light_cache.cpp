@@ -52,9 +52,9 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
       paths_(rays, voxels, settings.seed, progress, settings.still),
       importance_(rays, voxels, settings.views, settings.seed, progress) {
   const Home home{rays, lights, voxels, progress};
-  traceAllLinks(home);
+  const SkyGuide othersGuide = traceAllLinks(home);
   progress.at(0.5f);
-  daylight_.trace(tracing(home), links_, field_.sunPoints);
+  daylight_.trace(tracing(home), links_, othersGuide, field_.sunPoints);
   matchSources(home);
   progress.at(0.8f);
   indirect_.assign(voxels.slots.size(), {});
@@ -89,8 +89,8 @@ void LightCache::followDaylight(const RayScene& rays, const Lights& lights, cons
   const Home home{rays, lights, voxels, progress};
   field_.rays = 0;
   paths_.refer(rays, voxels);
-  findGuide(home);
-  daylight_.trace(tracing(home), links_, field_.sunPoints);
+  const SkyGuide othersGuide = findGuide(home);
+  daylight_.trace(tracing(home), links_, othersGuide, field_.sunPoints);
   matchSources(home);
   progress.at(0.5f);
   if (progress.stop()) return field_.irradianceLux.clear();
@@ -103,10 +103,10 @@ void LightCache::followDaylight(const RayScene& rays, const Lights& lights, cons
   bounceOn(home, bouncesOfUpdate(), near);
 }
 
-void LightCache::traceAllLinks(const Home& home) {
+SkyGuide LightCache::traceAllLinks(const Home& home) {
   const bool hasSky = home.lights.sky().present();
   SkyGuideBuilder guide(home.voxels, home.lights.sky());
-  if (home.progress.stop()) return;
+  if (home.progress.stop()) return {};
   links_ = planLinks(home.voxels, paths_, settings_.links, importance_);
   if (settings_.still) links_.hidden.resize(home.voxels.bricks.size());
   Steps steps(home.progress, 0, 0.5f, home.voxels.bricks.size());
@@ -115,15 +115,16 @@ void LightCache::traceAllLinks(const Home& home) {
     traceLinks(slots(home), b, linksOfBrick(home.voxels, links_, b), links_, hasSky ? &guide : nullptr);
     steps.one();
   });
-  if (home.progress.stop()) return;
   field_.rays += links_.links.size();
-  if (hasSky) field_.guide = guide.finish(home.progress);
+  if (home.progress.stop() || !hasSky) return {};
+  field_.guide = guide.finish(home.progress);
+  return settings_.still ? guide.finishOfOthers(home.progress) : SkyGuide();
 }
 
 // Of links traced before.
-void LightCache::findGuide(const Home& home) {
+SkyGuide LightCache::findGuide(const Home& home) {
   field_.guide = {};
-  if (!home.lights.sky().present()) return;
+  if (!home.lights.sky().present()) return {};
   SkyGuideBuilder guide(home.voxels, home.lights.sky());
   std::atomic<uint64_t> followed = 0;
   parallelFor(home.voxels.bricks.size(), 4, [&](size_t b) {
@@ -131,6 +132,7 @@ void LightCache::findGuide(const Home& home) {
   });
   field_.rays += followed;
   field_.guide = guide.finish(home.progress);
+  return settings_.still ? guide.finishOfOthers(home.progress) : SkyGuide();
 }
 
 // What is seen of lamps and emissive meshes. Where things move it would change with them, and with it the random

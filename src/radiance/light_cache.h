@@ -73,9 +73,9 @@ class LightCache {
     return {home.rays, home.lights, home.voxels, home.progress, paths_,
             settings_, field_,      importance_, fewParticles_, field_.rays};
   }
-  void traceAllLinks(const Home& home);
+  SkyGuide traceAllLinks(const Home& home);
   void updateLinks(const Home& home, const SlotPaths& paths, const SlotChange& change);
-  void findGuide(const Home& home);
+  SkyGuide findGuide(const Home& home);
   void learnLights(const Home& home);
   void matchSources(const Home& home);
   std::vector<LitParticles> litParticles() const;

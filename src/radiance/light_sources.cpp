@@ -51,7 +51,8 @@ void LightTracing::update(const SlotChange& change, const ParticleSource& source
   rayCount += particles.rays;
 }
 
-void DaylightSource::trace(const LightTracing& t, const Links& links, std::vector<GlowPoint>& sunPoints) {
+void DaylightSource::trace(const LightTracing& t, const Links& links, const SkyGuide& othersGuide,
+                           std::vector<GlowPoint>& sunPoints) {
   DirectLight direct = t.direct();
   suns_ = sky_ = {};
   ways_.clear();
@@ -64,8 +65,15 @@ void DaylightSource::trace(const LightTracing& t, const Links& links, std::vecto
     suns_ = SlotLight(t.voxels, sun);
   }
   if (t.lights.sky().present()) {
-    ways_.resize(t.voxels.slots.size());
-    sky_ = t.lightOfAll([&](size_t b, std::vector<Vec3>& lux) { direct.sky(t.field.guide, b, {}, ways_, lux); });
+    if (othersGuide.guideOfBrick.empty()) ways_.resize(t.voxels.slots.size());
+    const DirectLight::SharedSky shared{t.field.guide, othersGuide, links};
+    sky_ = t.lightOfAll([&](size_t b, std::vector<Vec3>& lux) {
+      if (othersGuide.guideOfBrick.empty()) {
+        direct.sky(t.field.guide, b, {}, ways_, lux);
+      } else {
+        direct.skyWithLinks(shared, b, lux);
+      }
+    });
   }
   t.rayCount += direct.rayCount();
 }

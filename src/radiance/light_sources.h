@@ -135,8 +135,9 @@ struct LitParticles {
 // All suns and the sky.
 class DaylightSource {
  public:
-  // Also where suns light what sends their light on by place (`sunPoints`), where those are wanted.
-  void trace(const LightTracing& t, const Links& links, std::vector<GlowPoint>& sunPoints);
+  // Also where suns light what sends their light on by place (`sunPoints`), where those are wanted. `othersGuide`: of
+  // bricks by their neighbours, where links share the light of the sky; empty: they do not.
+  void trace(const LightTracing& t, const Links& links, const SkyGuide& othersGuide, std::vector<GlowPoint>& sunPoints);
   void update(const LightTracing& t, const SlotChange& change);
   const SlotLight& suns() const { return suns_; }
   const SlotLight& sky() const { return sky_; }

@@ -125,6 +125,21 @@ FollowedLinks followLinks(const SlotSampling& slots, std::span<const LinkOf> wan
   return out;
 }
 
+// Of those that arrive nowhere, in their order.
+std::vector<Arrival> followDark(const SlotSampling& slots, const Links& links, std::span<const LinkOf> all,
+                                std::vector<Ray>& rays) {
+  std::vector<Sampler> samplers;
+  for (const LinkOf& l : all) {
+    if (!links.links[links.first[l.slot] + l.i].isDark()) continue;
+    rays.push_back(linkRay(slots, l));
+    samplers.push_back(samplerOf(slots, l));
+  }
+  std::vector<Arrival> ends;
+  std::vector<Ray> ways = rays;
+  slots.paths.follow(ways, samplers, ends);
+  return ends;
+}
+
 }  // namespace
 
 size_t Links::bytes() const {
@@ -191,14 +206,7 @@ Ray linkRay(const SlotSampling& slots, LinkOf link) {
 size_t lookAtSky(const SlotSampling& slots, size_t brick, const Links& links, SkyGuideBuilder& guide) {
   const std::vector<LinkOf> all = linksOfBrick(slots.voxels, links, brick);
   std::vector<Ray> rays;
-  std::vector<Sampler> samplers;
-  for (const LinkOf& l : all) {
-    if (!links.links[links.first[l.slot] + l.i].isDark()) continue;
-    rays.push_back(linkRay(slots, l));
-    samplers.push_back(samplerOf(slots, l));
-  }
-  std::vector<Arrival> ends;
-  slots.paths.follow(rays, samplers, ends);
+  const std::vector<Arrival> ends = followDark(slots, links, all, rays);
   size_t next = 0;
   for (const LinkOf& l : all) {
     const bool followed = links.links[links.first[l.slot] + l.i].isDark();
@@ -208,6 +216,23 @@ size_t lookAtSky(const SlotSampling& slots, size_t brick, const Links& links, Sk
     next += followed;
   }
   return rays.size();
+}
+
+std::vector<SkyLink> linksToSky(const SlotSampling& slots, size_t brick, const Links& links, size_t& rayCount) {
+  std::vector<LinkOf> straight = linksOfBrick(slots.voxels, links, brick);
+  std::erase_if(straight, [&](const LinkOf& l) { return links.links[links.first[l.slot] + l.i].isBent(); });
+  std::vector<Ray> rays;
+  const std::vector<Arrival> ends = followDark(slots, links, straight, rays);
+  std::vector<SkyLink> out;
+  size_t next = 0;
+  for (const LinkOf& l : straight) {
+    if (!links.links[links.first[l.slot] + l.i].isDark()) continue;
+    if (const Arrival& end = ends[next]; end.escaped && !end.reflected)
+      out.push_back({l, rays[next].direction, end.left});
+    ++next;
+  }
+  rayCount += rays.size();
+  return out;
 }
 
 void traceLinks(const SlotSampling& slots, size_t brick, std::span<const LinkOf> wanted, Links& links,

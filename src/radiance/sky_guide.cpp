@@ -44,14 +44,14 @@ void SkyGuideBuilder::add(size_t brick, int face, Vec3 direction, float open) {
 }
 
 // A brick's own tries, and some weight to those of its neighbours.
-SkyGuideBuilder::Blocks SkyGuideBuilder::around(size_t brick, size_t face) const {
+SkyGuideBuilder::Blocks SkyGuideBuilder::around(size_t brick, size_t face, float ownWeight) const {
   Blocks sum{};
   const Int3 c = voxels_.bricks[brick].coord;
   for (int k = 0; k < 27; ++k) {
     const int32_t n = voxels_.brickAt({c.x + k % 3 - 1, c.y + k / 3 % 3 - 1, c.z + k / 9 - 1});
     if (n < 0 || !blocks_[static_cast<size_t>(n)][face]) continue;
     const Blocks& from = *blocks_[static_cast<size_t>(n)][face];
-    const float w = k == 13 ? 1.0f : 0.1f;
+    const float w = k == 13 ? ownWeight : 0.1f;
     for (size_t i = 0; i < kBlocks; ++i) {
       sum[i].open += w * from[i].open;
       sum[i].tried += w * from[i].tried;
@@ -84,14 +84,18 @@ bool SkyGuideBuilder::density(const Blocks& tries, Cdf& cdf) const {
   return true;
 }
 
-SkyGuide SkyGuideBuilder::finish(const Progress& progress) const {
+SkyGuide SkyGuideBuilder::finish(const Progress& progress) const { return finish(1, progress); }
+
+SkyGuide SkyGuideBuilder::finishOfOthers(const Progress& progress) const { return finish(0, progress); }
+
+SkyGuide SkyGuideBuilder::finish(float ownWeight, const Progress& progress) const {
   const size_t count = voxels_.bricks.size();
   std::vector<std::array<std::unique_ptr<Cdf>, 6>> found(count);
   parallelFor(count, 16, [&](size_t b) {
     if (progress.stop()) return;
     Cdf cdf;
     for (size_t face = 0; face < 6; ++face) {
-      if (blocks_[b][face] && density(around(b, face), cdf)) found[b][face] = std::make_unique<Cdf>(cdf);
+      if (blocks_[b][face] && density(around(b, face, ownWeight), cdf)) found[b][face] = std::make_unique<Cdf>(cdf);
     }
   });
   SkyGuide guide;

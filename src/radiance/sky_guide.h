@@ -20,13 +20,16 @@ class SkyGuideBuilder {
   SkyGuideBuilder(const Voxels& voxels, const SkyDistribution& sky);
   void add(size_t brick, int face, Vec3 direction, float open);  // one thread a brick
   SkyGuide finish(const Progress& progress) const;  // of no use once that says stop
+  // Of each brick what its neighbours tell alone. Of no use once `progress` says stop.
+  SkyGuide finishOfOthers(const Progress& progress) const;
 
  private:
   struct Tries {
     float open = 0, tried = 0;
   };
   using Blocks = std::array<Tries, SkyDistribution::kBlocks>;
-  Blocks around(size_t brick, size_t face) const;
+  SkyGuide finish(float ownWeight, const Progress& progress) const;
+  Blocks around(size_t brick, size_t face, float ownWeight) const;
   bool density(const Blocks& tries, SkyGuide::Cdf& cdf) const;
   const Voxels& voxels_;
   const SkyDistribution& sky_;
