@@ -114,14 +114,8 @@ constexpr float kLeastScale = 0.05f;  // down to a tenth of a metre
 // Where a scene has no rooms its things are what is looked at: of small ones all lengths are in proportion.
 void fitToThings(const Scene& scene, BakeSettings& s) {
   if (!scene.rooms.empty()) return;
-  Bounds3 whole;
-  for (const Instance& i : scene.instances) {
-    const Bounds3 bounds = instanceBounds(scene, i);
-    if (!bounds.empty()) whole.add(bounds.lo), whole.add(bounds.hi);
-  }
-  if (whole.empty()) return;
-  const Bounds3 things = boundsOfThings(scene, maxComponent(whole.size()));
-  const float extentM = maxComponent((things.empty() ? whole : things).size());
+  const float extentM = extentLookedAt(scene);
+  if (!(extentM > 0)) return;
   const float scale = std::clamp(extentM / kLookedAtM, kLeastScale, 1.0f);
   for (float* length : {&s.charts.texelM, &s.atlas.texelM, &s.atlas.vertexM, &s.placesApartM, &s.simplifyM})
     *length *= scale;

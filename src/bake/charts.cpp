@@ -207,7 +207,7 @@ class ChartMaker {
   }
   bool isFine(const Chart& chart) const {
     const float texels = settings_.fineTexels;
-    return std::max(chart.sizeM.x, chart.sizeM.y) < texels * settings_.texelM;
+    return chart.ring == kNoRing && std::max(chart.sizeM.x, chart.sizeM.y) < texels * settings_.texelM;
   }
 
   const Patchwork& work_;

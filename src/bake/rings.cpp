@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "scene/mesh_vertices.h"
 #include "trace/surface_point.h"
@@ -15,6 +16,7 @@ constexpr float kLevel = 0.97f;   // cosine between a normal and the vertical: 1
 constexpr float kWider = 4;       // a ring than the one within
 constexpr float kAtLeast = 2;     // so many times as wide as the innermost ring is what is cut
 constexpr size_t kMostRings = 6;
+constexpr float kThin = 0.05f;    // of its width: what is no higher is a ground
 constexpr float kOnLine = 1e-6f;  // of the extent: corners so near to a line are on it
 
 struct Rectangle {
@@ -48,7 +50,8 @@ Ground groundOf(const Scene& scene, uint32_t instance) {
 
 // From the innermost outwards; empty: there is nothing to gain.
 std::vector<Rectangle> ringsAround(const Bounds3& things, const Ground& ground) {
-  const float shadowM = std::max(things.hi.y - ground.highestM, 0.0f);
+  const float shadowM = things.hi.y - ground.highestM;
+  if (!(shadowM > 0)) return {};
   const Vec3 middle = things.centre();
   const Vec2 half{things.size().x / 2 + shadowM, things.size().z / 2 + shadowM};
   std::vector<Rectangle> out;
@@ -60,6 +63,8 @@ std::vector<Rectangle> ringsAround(const Bounds3& things, const Ground& ground) 
   }
   return out;
 }
+
+bool comesAfter(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) > std::tie(b.x, b.y, b.z); }
 
 // A mesh cut along lines of one world axis, and what is known of its triangles.
 class Cutter {
@@ -109,9 +114,9 @@ class Cutter {
     }
   }
 
-  // One for both triangles of an edge.
+  // One for both triangles of an edge; at the same place where these have vertices of their own.
   uint32_t between(uint32_t a, uint32_t b, float beyondA, float beyondB) {
-    if (a > b) std::swap(a, b), std::swap(beyondA, beyondB);
+    if (comesAfter(mesh_.positions[a], mesh_.positions[b])) std::swap(a, b), std::swap(beyondA, beyondB);
     const auto [known, isNew] = between_.try_emplace({a, b}, 0);
     if (isNew) known->second = addVertexBetween(mesh_, a, b, beyondA / (beyondA - beyondB));
     return known->second;
@@ -122,6 +127,22 @@ class Cutter {
   std::vector<uint8_t>& level_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> between_;
 };
+
+std::vector<Bounds3> boundsOfInstances(const Scene& scene) {
+  std::vector<Bounds3> out;
+  for (const Instance& i : scene.instances) out.push_back(instanceBounds(scene, i));
+  return out;
+}
+
+bool isThing(const Bounds3& bounds, float extentM) { return maxComponent(bounds.size()) < extentM / 2; }
+
+Bounds3 boundsOfThings(const std::vector<Bounds3>& all, float extentM) {
+  Bounds3 out;
+  for (const Bounds3& bounds : all) {
+    if (!bounds.empty() && isThing(bounds, extentM)) out.add(bounds.lo), out.add(bounds.hi);
+  }
+  return out;
+}
 
 std::vector<uint8_t> cutAlong(const std::vector<Rectangle>& rings, Ground ground, Scene& scene, uint32_t instance) {
   const Instance& placed = scene.instances[instance];
@@ -145,26 +166,35 @@ std::vector<uint8_t> cutAlong(const std::vector<Rectangle>& rings, Ground ground
 
 }  // namespace
 
-Bounds3 boundsOfThings(const Scene& scene, float extentM) {
-  Bounds3 out;
-  for (const Instance& i : scene.instances) {
-    const Bounds3 bounds = instanceBounds(scene, i);
-    if (!bounds.empty() && maxComponent(bounds.size()) < extentM / 2) out.add(bounds.lo), out.add(bounds.hi);
+float extentLookedAt(const Scene& scene) {
+  const std::vector<Bounds3> all = boundsOfInstances(scene);
+  Bounds3 whole;
+  for (const Bounds3& bounds : all) {
+    if (!bounds.empty()) whole.add(bounds.lo), whole.add(bounds.hi);
   }
-  return out;
+  if (whole.empty()) return 0;
+  const float extentM = maxComponent(whole.size());
+  const bool onGround = std::all_of(all.begin(), all.end(), [&](const Bounds3& bounds) {
+    return bounds.empty() || isThing(bounds, extentM) ||
+           bounds.size().y < kThin * std::max(bounds.size().x, bounds.size().z);
+  });
+  const Bounds3 things = boundsOfThings(all, extentM);
+  return onGround && !things.empty() ? maxComponent(things.size()) : extentM;
 }
 
 Rings cutIntoRings(Scene& scene, float wideM) {
   Rings out(scene.meshes.size());
+  const std::vector<Bounds3> bounds = boundsOfInstances(scene);
   std::vector<size_t> uses(scene.meshes.size());
   for (const Instance& i : scene.instances) ++uses[static_cast<size_t>(i.mesh)];
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const auto mesh = static_cast<size_t>(scene.instances[i].mesh);
-    const Vec3 size = instanceBounds(scene, scene.instances[i]).size();
+    const Vec3 size = bounds[i].size();
     if (uses[mesh] != 1 || !(std::max(size.x, size.z) > wideM)) continue;
     Ground ground = groundOf(scene, i);
-    const Bounds3 things = boundsOfThings(scene, ground.extent.extentM());
-    if (things.empty() || !(ground.extent.extentM() > wideM)) continue;
+    if (!(ground.extent.extentM() > wideM)) continue;
+    const Bounds3 things = boundsOfThings(bounds, ground.extent.extentM());
+    if (things.empty()) continue;
     const std::vector<Rectangle> rings = ringsAround(things, ground);
     if (!rings.empty()) out[mesh] = cutAlong(rings, std::move(ground), scene, i);
   }

@@ -14,10 +14,10 @@ constexpr uint8_t kNoRing = 255;
 // The ring of each triangle, 0: the innermost. By mesh; empty: it is not cut.
 using Rings = std::vector<std::vector<uint8_t>>;
 
-// Bounds of the instances less than half as large as `extentM`. Empty: there are none.
-Bounds3 boundsOfThings(const Scene& scene, float extentM);
+// How large a scene is to look at, m: its things, where all else is level, as a ground; else the whole.
+float extentLookedAt(const Scene& scene);
 
-// Cuts surfaces more than `wideM` wide, if they are at least twice as wide as what stands on them and its shadow by a
+// Cuts surfaces more than `wideM` wide, if they are at least twice as wide as what stands on them, with its shadow by a
 // sun 45° high. Each ring is four times as wide as the one within. No surface moves; triangles keep their numbers, of
 // one that is cut the rest follow after all others. Meshes that are placed more than once stay whole.
 Rings cutIntoRings(Scene& scene, float wideM);

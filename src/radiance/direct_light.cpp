@@ -342,11 +342,13 @@ void DirectLight::skyWithLinks(const SharedSky& guide, size_t brick, std::span<V
     return light;
   });
   size_t rays = 0;
-  for (const SkyLink& l : linksToSky(slots_, brick, guide.links, rays)) {
+  std::array<bool, 6> faces;
+  for (size_t f = 0; f < faces.size(); ++f) faces[f] = guide.own.guideOfBrick[brick][f] >= 0;
+  for (const SkyLink& l : linksToSky(slots_, brick, guide.links, faces, rays)) {
     const size_t s = l.link.slot;
     const float a = attenuation(settings_.attenuation, voxels_.slots[s].normal, l.direction),
                 links = density(s, l.direction);
-    if (guideOf(guide.own, s) < 0 || !(a > 0 && links > 0)) continue;
+    if (!(a > 0 && links > 0)) continue;
     const float part = ofLinks(links, pdfSkyGuided(guide.others, guideOf(guide.others, s), lights_, l.direction));
     lux[s] += lights_.sky().radiance(l.direction) * l.left * (a * part / links);
   }

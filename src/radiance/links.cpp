@@ -135,8 +135,7 @@ std::vector<Arrival> followDark(const SlotSampling& slots, const Links& links, s
     samplers.push_back(samplerOf(slots, l));
   }
   std::vector<Arrival> ends;
-  std::vector<Ray> ways = rays;
-  slots.paths.follow(ways, samplers, ends);
+  slots.paths.follow(rays, samplers, ends);
   return ends;
 }
 
@@ -218,9 +217,12 @@ size_t lookAtSky(const SlotSampling& slots, size_t brick, const Links& links, Sk
   return rays.size();
 }
 
-std::vector<SkyLink> linksToSky(const SlotSampling& slots, size_t brick, const Links& links, size_t& rayCount) {
+std::vector<SkyLink> linksToSky(const SlotSampling& slots, size_t brick, const Links& links,
+                                const std::array<bool, 6>& faces, size_t& rayCount) {
   std::vector<LinkOf> straight = linksOfBrick(slots.voxels, links, brick);
-  std::erase_if(straight, [&](const LinkOf& l) { return links.links[links.first[l.slot] + l.i].isBent(); });
+  std::erase_if(straight, [&](const LinkOf& l) {
+    return !faces[slots.voxels.slots[l.slot].face] || links.links[links.first[l.slot] + l.i].isBent();
+  });
   std::vector<Ray> rays;
   const std::vector<Arrival> ends = followDark(slots, links, straight, rays);
   std::vector<SkyLink> out;

@@ -85,13 +85,14 @@ Ray linkRay(const SlotSampling& slots, LinkOf link);
 // followed again. Returns how many.
 size_t lookAtSky(const SlotSampling& slots, size_t brick, const Links& links, SkyGuideBuilder& guide);
 
-// Of a brick the links that come from the sky, through panes at most, in order of slots and links. Adds the rays
-// followed again to `rayCount`.
+// Of a brick the links that come from the sky, through panes at most, in order of slots and links; of slots on the
+// `faces` wanted. Adds the rays followed again to `rayCount`.
 struct SkyLink {
   LinkOf link;
   Vec3 direction, left;  // left: share of the sky's light
 };
-std::vector<SkyLink> linksToSky(const SlotSampling& slots, size_t brick, const Links& links, size_t& rayCount);
+std::vector<SkyLink> linksToSky(const SlotSampling& slots, size_t brick, const Links& links,
+                                const std::array<bool, 6>& faces, size_t& rayCount);
 
 // Traces the wanted links of one brick, and tells `guide` (null: no sky) what they saw of the sky.
 void traceLinks(const SlotSampling& slots, size_t brick, std::span<const LinkOf> wanted, Links& links,

@@ -82,6 +82,44 @@ TEST(Rings, areChartsOfTheirOwnWithTexelsAsFineAsTheyAreNear) {
   EXPECT_NEAR(texelM[2], 60.0f / 63, 0.01f);
 }
 
+// Triangles that share no vertices, as flat shading has them.
+TEST(Rings, areWholeWhereTrianglesHaveVerticesOfTheirOwn) {
+  Scene scene = boxOnGround();
+  Mesh& ground = scene.meshes[0];
+  ground.uv[0].clear(), ground.normals.clear();
+  ground.positions = {{-20.3f, 0, -19.1f}, {19.7f, 0, 20.3f},   {19.7f, 0, -19.1f},
+                      {19.7f, 0, 20.3f},   {-20.3f, 0, -19.1f}, {-20.3f, 0, 20.3f}};
+  ground.indices = {0, 1, 2, 3, 4, 5};
+  const Rings rings = cutIntoRings(scene, kWideM);
+  SeenSides seen(scene);
+  for (uint32_t t = 0; t < rings[0].size(); ++t) seen.mark(kGround, t, false);
+  EXPECT_EQ(chartsOf(scene, seen, {}, rings).size(), 3u);
+}
+
+TEST(Rings, aTinyOneHasTexelsToo) {
+  Scene scene;
+  addRectangle(scene, {-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, addMaterial(scene, lambertian(0.5f)));
+  addBox(scene, {0, 0, 0}, {0.1f, 0.02f, 0.1f}, 0);
+  const Rings rings = cutIntoRings(scene, kWideM);
+  ASSERT_FALSE(rings[0].empty());
+  SeenSides seen(scene);
+  for (uint32_t t = 0; t < rings[0].size(); ++t) seen.mark(kGround, t, false);
+  for (const Chart& chart : chartsOf(scene, seen, {}, rings)) EXPECT_FALSE(chart.byVertices);
+}
+
+TEST(Rings, ofACeilingOverThingsThereAreNone) {
+  Scene scene = boxOnGround();
+  scene.instances[0].worldFromObject.w.y = 3;
+  EXPECT_TRUE(cutIntoRings(scene, kWideM)[0].empty());
+}
+
+TEST(Rings, aThingBesideABuildingIsNotAllThatIsLookedAt) {
+  Scene scene = boxOnGround();
+  EXPECT_NEAR(extentLookedAt(scene), 1, 1e-5f);
+  addBox(scene, {-20, 0, -20}, {20, 9, 20}, 0);
+  EXPECT_NEAR(extentLookedAt(scene), 60, 1e-4f);
+}
+
 TEST(Rings, areNotCutWhereThingsStandAllOver) {
   Scene scene = boxOnGround();
   addBox(scene, {-15, 0, -15}, {-14, 1, -14}, 0);
