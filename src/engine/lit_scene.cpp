@@ -46,9 +46,12 @@ void LitScene::update(const SceneChange& change, Stages& stages) {
 }
 
 Picture LitScene::finished(const Camera& camera, Image image, std::vector<RenderedLayer> layers) const {
-  const Vec3 colour = lightColour(rays(), camera, image);
+  std::vector<const Image*> parts;
+  for (const RenderedLayer& l : layers) parts.push_back(&l.image);
+  const LightColours colours = lightColours(rays(), camera, image, parts);
+  for (size_t i = 0; i < layers.size(); ++i) layers[i].lightColour = colours.parts[i];
   Sights sights = sightsOf(rays(), camera, image.width, image.height);
-  return {std::move(image), colour, std::move(sights), std::move(layers)};
+  return {std::move(image), colours.whole, std::move(sights), std::move(layers)};
 }
 
 Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages,

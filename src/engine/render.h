@@ -32,7 +32,8 @@ struct RenderStats {
 
 struct RenderedLayer {
   LightLayer light;
-  Image image;  // linear, cd/m²
+  Image image;          // linear, cd/m²
+  Vec3 lightColour{};  // what the layer has in that of the whole
 };
 
 struct Rendered {

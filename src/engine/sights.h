@@ -30,5 +30,12 @@ Image drawn(const Image& encoded, const Sights& sights, Vec3 section, std::optio
 // not shine themselves, by camera rays on a raster: what a white card would show there. So coloured walls do not count
 // as coloured light, except for what they reflect on to others. Of no size but a colour; black where nothing tells.
 Vec3 lightColour(const RayScene& rays, const Camera& camera, const Image& image, int raysASide = 64);
+// The same of the whole, and what each of the parts, whose sum it is, has in that: they add up to it.
+struct LightColours {
+  Vec3 whole;
+  std::vector<Vec3> parts;
+};
+LightColours lightColours(const RayScene& rays, const Camera& camera, const Image& whole,
+                          const std::vector<const Image*>& parts, int raysASide = 64);
 
 }  // namespace roomlight

@@ -16,10 +16,11 @@ bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition
   return dot(n, m) > kFacing && off < kToleranceM + kSlope * along;
 }
 
-void addFragments(const Fragments& fragments, const FilterInput& means, const std::vector<PixelCount>& counts,
-                  std::span<const Vec3> irradiance, Image& image) {
+void addFragments(const Fragments& fragments, int layer, const FilterInput& means,
+                  const std::vector<PixelCount>& counts, std::span<const Vec3> irradiance, Image& image) {
   constexpr int kReach = 2;
-  for (const Fragment& f : fragments) {
+  for (size_t k = 0; k < fragments.all.size(); ++k) {
+    const Fragment& f = fragments.all[k];
     const int x = static_cast<int>(f.pixel) % means.width, y = static_cast<int>(f.pixel) / means.width;
     const Vec3 place = f.position / f.surface;
     Vec3 sum;
@@ -35,7 +36,7 @@ void addFragments(const Fragments& fragments, const FilterInput& means, const st
       }
     }
     // What is seen in one pixel alone is known by a few rays: no brighter than what is around it.
-    Vec3 own = f.diffuse / max(f.albedo, Vec3(1e-3f));
+    Vec3 own = fragments.diffuse(k, layer) / max(f.albedo, Vec3(1e-3f));
     own *= std::min(1.0f, brightest / std::max(luminance(own), 1e-20f));
     const float inverse = 1 / static_cast<float>(std::max(1u, counts[f.pixel].rays));
     image.pixels[f.pixel] += (count > 0 ? sum / count : own) * max(f.albedo, Vec3(0)) * inverse;
@@ -66,7 +67,7 @@ Plane thinThings(const std::vector<Fragments>& fragments, const FilterInput& sum
                  const std::vector<PixelCount>& counts) {
   Plane light(sums.width, sums.height), rays(sums.width, sums.height);
   parallelFor(fragments.size(), 4, [&](size_t tile) {  // a pixel belongs to one of them
-    for (const Fragment& f : fragments[tile]) {
+    for (const Fragment& f : fragments[tile].all) {
       if (!isShownBeside(f, sums, counts)) light.values[f.pixel] += f.luminance, rays.values[f.pixel] += f.surface;
     }
   });

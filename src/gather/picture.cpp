@@ -118,13 +118,7 @@ class Gathering {
       if (!result_.occlusion.pixels.empty())
         result_.occlusion.pixels[i] = Vec3(counts_[i].occlusion / static_cast<float>(std::max(1u, counts_[i].rays)));
     });
-    std::vector<Vec3> irradiance;
-    result_.image = settings_.filterPasses > 0
-                        ? filtered(means, settings_.filterPasses, nullptr, keepsFragments_ ? &irradiance : nullptr)
-                        : composed(means);
-    parallelFor(fragments_.size(), 16,
-                [&](size_t t) { addFragments(fragments_[t], means, counts_, irradiance, result_.image); });
-    if (keepsFragments_ && settings_.filterPasses > 0) boundEdges(means, result_.image);
+    result_.image = composedWith(means, -1);
   }
   void composeForGood() {
     compose(sums_);
@@ -152,6 +146,17 @@ class Gathering {
   GatheredPicture& picture() { return result_; }
 
  private:
+  // A picture of means, with what its edges show of other surfaces: of one layer, or, below 0, of all.
+  Image composedWith(const FilterInput& means, int layer) const {
+    if (settings_.filterPasses <= 0) return composed(means);
+    std::vector<Vec3> irradiance;
+    Image image = filtered(means, settings_.filterPasses, nullptr, keepsFragments_ ? &irradiance : nullptr);
+    parallelFor(fragments_.size(), 16,
+                [&](size_t t) { addFragments(fragments_[t], layer, means, counts_, irradiance, image); });
+    if (keepsFragments_ && layer < 0) boundEdges(means, image);  // layers add up to the whole (splitLike)
+    return image;
+  }
+
   void plan(size_t first) {
     if (settings_.rareApart) {
       planByOthers();
@@ -218,8 +223,9 @@ class Gathering {
       shader_.shade(work.shadings, work.shadows, light, count);
     }
     if (!keepsFragments_) pixelShader_.findOutshining(work, light);
-    PixelShader::add(work, light, keepsFragments_ ? &fragments_[tile] : nullptr);
-    if (layers_) pixelShader_.addLayers(work, light, layerLight);
+    Fragments* fragments = keepsFragments_ ? &fragments_[tile] : nullptr;
+    PixelShader::add(work, light, fragments);
+    if (layers_) pixelShader_.addLayers(work, light, layerLight, fragments);
   }
 
   void report(size_t first, size_t n, size_t tilesDone) {
@@ -234,12 +240,11 @@ class Gathering {
   }
 
   void composeLayers() {
-    for (size_t l = 0; l < layers_->size(); ++l) {
-      const FilterInput input = inputOfLayer(sums_, counts_, byLayer_, l);
-      result_.layers.push_back(settings_.filterPasses > 0 ? filtered(input, settings_.filterPasses) : composed(input));
-    }
+    for (size_t l = 0; l < layers_->size(); ++l)
+      result_.layers.push_back(composedWith(inputOfLayer(sums_, counts_, byLayer_, l), static_cast<int>(l)));
     splitLike(result_.image, result_.layers);
     result_.layerBytes = byLayer_.bytes();
+    for (const Fragments& f : fragments_) result_.layerBytes += f.byLayer.size() * sizeof(Vec3);
   }
 
   const RayScene& rays_;

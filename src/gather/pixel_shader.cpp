@@ -344,11 +344,12 @@ void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLig
 }
 
 // What is no part of the surface that fills most of the pixel. Shadows and reflections on it stay as they are.
-void PixelShader::addFragment(const TileWork::Part& part, std::span<const SurfaceLight> shadings,
-                              Fragments& fragments) {
+void PixelShader::addFragment(TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments) {
   const uint32_t pixel = part.pixel.index;
-  auto f = std::find_if(fragments.rbegin(), fragments.rend(), [&](const Fragment& o) { return o.pixel == pixel; });
-  if (f == fragments.rend()) fragments.push_back({pixel, {}, {}, {}, {}}), f = fragments.rbegin();
+  std::vector<Fragment>& all = fragments.all;
+  auto f = std::find_if(all.rbegin(), all.rend(), [&](const Fragment& o) { return o.pixel == pixel; });
+  if (f == all.rend()) all.push_back({pixel, {}, {}, {}, {}}), f = all.rbegin();
+  part.fragment = static_cast<int32_t>(all.rend() - f) - 1;
   f->normal += part.normal, f->position += part.position, f->surface += part.surface, f->albedo += part.unlitAlbedo;
   const float weight = part.weight / part.survival;
   for (const SurfaceLight& l : shadings) {
@@ -447,7 +448,23 @@ void PixelShader::addVarianceOfLayers(const TileWork::Part& part, std::span<cons
   }
 }
 
-void PixelShader::addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const {
+// What is not filtered with the pixel's own surface: diffuse light is its fragment's, where there is one.
+void PixelShader::addLayersApart(const TileWork::Part& part, const LayerSums& light, Fragments* fragments) const {
+  const Vec3 once = part.left * (part.weight / part.survival);
+  for (size_t s = part.first; s < part.first + part.count; ++s) {
+    for (const auto lobe : {LayerSums::kDiffuse, LayerSums::kSharp, LayerSums::kSpecular}) {
+      if (part.fragment < 0 || lobe != LayerSums::kDiffuse)
+        byLayer_->addFrom(part.pixel.index, LayerSums::kRest, lobe, light, s, once);
+    }
+    for (size_t l = 0; part.fragment >= 0 && l < layers_->size(); ++l)
+      fragments->byLayer[static_cast<size_t>(part.fragment) * layers_->size() + l] +=
+          once * light.get(s, LayerSums::kDiffuse, l);
+  }
+}
+
+void PixelShader::addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light,
+                            Fragments* fragments) const {
+  if (fragments) fragments->byLayer.resize(fragments->all.size() * layers_->size());
   for (const TileWork::Part& part : work.parts) {
     const Vec3 once = part.left * (part.weight / part.survival), diffuse = once * static_cast<float>(part.gathers),
                specular = once * static_cast<float>(part.glossy);
@@ -457,8 +474,7 @@ void PixelShader::addLayers(const TileWork& work, std::span<const SurfaceLight> 
     };
     add(LayerSums::kRest, LayerSums::kRest, once);
     if (part.apart) {
-      for (const auto lobe : {LayerSums::kDiffuse, LayerSums::kSharp, LayerSums::kSpecular})
-        add(LayerSums::kRest, lobe, once);
+      addLayersApart(part, light, fragments);
       continue;
     }
     addVarianceOfLayers(part, whole, light);

@@ -30,15 +30,24 @@ struct Fragment {
   Vec3 diffuse, albedo, normal, position;  // sums over camera rays, as FilterPixel's
   float surface = 0, luminance = 0;  // luminance: with what of its light is not filtered
 };
-using Fragments = std::vector<Fragment>;  // of a tile
+struct Fragments {  // of a tile
+  std::vector<Fragment> all;
+  std::vector<Vec3> byLayer;  // where light is kept in layers: of each fragment its diffuse light, layer by layer
+
+  size_t layers() const { return all.empty() ? 0 : byLayer.size() / all.size(); }
+  // Of one layer, or, below 0, of all together.
+  Vec3 diffuse(size_t fragment, int layer) const {
+    return layer < 0 ? all[fragment].diffuse : byLayer[fragment * layers() + static_cast<size_t>(layer)];
+  }
+};
 
 // Whether light on two surfaces may be filtered together, much as the filter has it. Normals of any length.
 bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition);
 
 // Adds their light to a picture that was filtered without them: of pixels around that see the same surface, by their
-// irradiance after filtering; where there is none their own.
-void addFragments(const Fragments& fragments, const FilterInput& means, const std::vector<PixelCount>& counts,
-                  std::span<const Vec3> irradiance, Image& image);
+// irradiance after filtering; where there is none their own. `layer`: that the picture is of; below 0: of all.
+void addFragments(const Fragments& fragments, int layer, const FilterInput& means,
+                  const std::vector<PixelCount>& counts, std::span<const Vec3> irradiance, Image& image);
 
 // Of each pixel the luminance of what it shows beside its own surface and no pixel beside it shows as its own: things
 // and grooves thinner than pixels. What they shine by themselves is not in it. -1: nothing. `sums`: over camera rays.
@@ -101,6 +110,7 @@ struct TileWork {
                          // parts have no shadings
     Vec3 unlitAlbedo{};  // sum over the camera rays of an unlit part
     bool apart = false;  // not filtered with what fills most of its pixel: another surface, or what outshines that
+    int32_t fragment = -1;  // of the tile's that its diffuse light belongs to
   };
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
@@ -130,7 +140,8 @@ class PixelShader {
   // marked.
   static void add(TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments);
   // The same by layers, of which `light` has one thing for each shading.
-  void addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const;
+  void addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light,
+                 Fragments* fragments) const;
 
  private:
   struct Layer;
@@ -145,7 +156,8 @@ class PixelShader {
   ShadingPlan planned(const SeenSurface& seen, const MaterialSample& m, bool clear, const PixelCount& known) const;
   void see(const SeenSurface& seen, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addPlace(const TileWork::Part& part);
-  static void addFragment(const TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments);
+  static void addFragment(TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments);
+  void addLayersApart(const TileWork::Part& part, const LayerSums& light, Fragments* fragments) const;
   static void addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings);
   static void addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part);
   static void passOn(const SeenSurface& seen, Vec3 through, bool solid, Layer& behind);

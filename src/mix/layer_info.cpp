@@ -18,6 +18,15 @@ std::optional<double> optionalNumber(const Json& layer, const char* key) {
   return found->get<double>();
 }
 
+std::optional<Vec3> optionalRgb(const Json& layer, const char* key) {
+  const auto c = layer.find(key);
+  if (c == layer.end() || c->is_null()) return std::nullopt;
+  const Vec3 rgb{c->at(0).get<float>(), c->at(1).get<float>(), c->at(2).get<float>()};
+  if (!isFinite(rgb) || minComponent(rgb) < 0)
+    throw std::runtime_error(fmt::format("'{}' must be three numbers from 0 on", key));
+  return rgb;
+}
+
 LayerInfo read(const Json& layer) {
   LayerInfo info;
   info.channel = layer.at("channel").get<std::string>();
@@ -25,12 +34,10 @@ LayerInfo read(const Json& layer) {
   info.kind = layer.at("kind").get<std::string>();
   if (std::find(kKinds.begin(), kKinds.end(), info.kind) == kKinds.end())
     throw std::runtime_error("unknown kind '" + info.kind + "'");
-  if (const auto c = layer.find("colour"); c != layer.end() && !c->is_null())
-    info.colour = {c->at(0).get<float>(), c->at(1).get<float>(), c->at(2).get<float>()};
-  const bool proper = isFinite(info.colour) && minComponent(info.colour) >= 0;
-  if (!proper) throw std::runtime_error("'colour' must be three numbers from 0 on");
+  info.colour = optionalRgb(layer, "colour").value_or(info.colour);
   // A layer without light of its own has no hue; white says nothing wrong.
   info.colour = isBlack(info.colour) ? Vec3(1) : info.colour / luminance(info.colour);
+  info.lightColour = optionalRgb(layer, "lightColour");
   info.kelvin = optionalNumber(layer, "kelvin");
   info.fluxLm = optionalNumber(layer, "fluxLm");
   if (const auto room = layer.find("room"); room != layer.end() && room->is_string())

@@ -15,6 +15,7 @@ namespace roomlight {
 struct LayerInfo {
   std::string channel, name, kind;  // kind: lamp, group, mesh, sun or sky
   Vec3 colour{1, 1, 1};             // linear Rec.709 of its light; luminance 1 once read
+  std::optional<Vec3> lightColour;  // what it gives surfaces in the picture, where the light of all has luminance 1
   std::optional<double> kelvin, fluxLm;
   std::string room;             // empty: none
   std::optional<Vec2> pixel;    // where it is in the picture: shares of width and height, from the top left

@@ -72,10 +72,14 @@ void showEdges(const MixHome& home, std::span<const Vec3> gains, const Look& loo
   });
 }
 
+// By what the file tells of each layer's light on surfaces; older ones do not, so the layers' own colours stand for it.
 Vec3 lightColourOf(const MixHome& home, const Mixture& mixture) {
   Vec3 sum;
+  const bool told =
+      std::all_of(home.layers.begin(), home.layers.end(), [](const LayerInfo& l) { return l.lightColour.has_value(); });
   for (size_t i = 0; i < home.layers.size(); ++i)
-    sum += mixture.hues[i] * luminance(home.stack.meanRgb[i] * mixture.gains[i]);
+    sum += told ? *home.layers[i].lightColour * mixture.gains[i]
+                : mixture.hues[i] * luminance(home.stack.meanRgb[i] * mixture.gains[i]);
   return sum;
 }
 

@@ -37,12 +37,17 @@ bool isOfView(const Scene& scene, const Camera& camera, int room) {
   return !floor || (room >= 0 && std::abs(scene.rooms[static_cast<size_t>(room)].elevationM - *floor) < kLevelsApartM);
 }
 
-Json layerJson(const LightLayer& light, const std::string& channel, const Scene& scene, const Camera& camera,
+Json layerJson(const RenderedLayer& layer, const std::string& channel, const Scene& scene, const Camera& camera,
                const Image& picture) {
+  const LightLayer& light = layer.light;
   const float flux = luminance(light.fluxLm);
   const Vec3 colour = flux > 0 ? light.fluxLm / flux : Vec3(1);
   const std::optional<double> kelvin = kelvinOf(colour);
-  Json j{{"channel", channel}, {"name", light.name}, {"kind", kindOf(light.kind)}, {"colour", rgb(colour)}};
+  Json j{{"channel", channel},
+         {"name", light.name},
+         {"kind", kindOf(light.kind)},
+         {"colour", rgb(colour)},
+         {"lightColour", rgb(max(layer.lightColour, Vec3(0)))}};
   j["kelvin"] = kelvin ? Json(*kelvin) : Json();
   j["fluxLm"] = j["room"] = j["position"] = j["pixel"] = Json();
   if (!isLocal(light)) return j;
@@ -69,7 +74,7 @@ LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& re
     const std::string channel = !isLocal(layer.light)     ? kindOf(kind)
                                 : kind == LayerKind::Mesh ? fmt::format("mesh_{:02}", ++meshes)
                                                           : fmt::format("lamp_{:02}", ++lamps);
-    list.push_back(layerJson(layer.light, channel, scene, camera, whole));
+    list.push_back(layerJson(layer, channel, scene, camera, whole));
     out.layers.push_back({channel, std::move(layer.image)});
   }
   Json all{{"version", 1}, {"camera", camera.name}, {"layers", list}};

@@ -162,8 +162,7 @@ const RenderedLayer& layerOf(const Rendered& r, const std::string& name) {
 }
 
 // The scene with nothing but one of its lights.
-Scene alone(const std::string& name) {
-  Scene scene = home();
+Scene alone(const std::string& name, Scene scene = home()) {
   if (name != "sun") scene.suns.clear();
   if (name != "sky") scene.sky = {};
   std::erase_if(scene.lamps, [&](const Lamp& l) { return l.name != name; });
@@ -190,6 +189,21 @@ TEST_P(Layers, addUpToThePlainPicture) {
   }
   fmt::print("with layers {:.5f} of the mean without\n", withLayers / without);
   EXPECT_NEAR(withLayers / without, 1, 0.006);
+}
+
+// A mix knows by them what light a lamp alone gives surfaces, so that it is shown as a render of that lamp is.
+TEST_P(Layers, tellTheColourOfTheirLight) {
+  const RenderSettings settings = settingsOf(GetParam(), GetParam() == "path" ? 64 : 0);
+  const Rendered layered = rendered(home(), settings, true);
+  Vec3 sum;
+  for (const RenderedLayer& l : layered.layers) sum += l.lightColour;
+  EXPECT_NEAR(length(sum - layered.lightColour), 0, 1e-3f);
+  EXPECT_NEAR(luminance(sum), 1, 1e-3f);
+  EXPECT_TRUE(isBlack(layerOf(layered, "Cellar").lightColour));
+  for (const char* name : {"Ceiling", "Red. \"spot\""}) {
+    const Vec3 layer = layerOf(layered, name).lightColour, own = rendered(alone(name), settings, false).lightColour;
+    EXPECT_NEAR(length(layer / luminance(layer) - own), 0, 0.1f * length(own)) << name;
+  }
 }
 
 TEST_P(Layers, areDarkBehindWalls) {

@@ -41,7 +41,7 @@ std::vector<uint16_t> needed(bool wraps, int darkColumn, int edgeColumn) {
 std::vector<Fragments> thinThing(Vec3 light, Vec3 normal) {
   Fragments seen;
   for (int y = 0; y < kHeight; ++y)
-    seen.push_back({static_cast<uint32_t>(y * kWidth + 12), light, Vec3(1), normal, Vec3(0), 1, luminance(light)});
+    seen.all.push_back({static_cast<uint32_t>(y * kWidth + 12), light, Vec3(1), normal, Vec3(0), 1, luminance(light)});
   return {seen};
 }
 

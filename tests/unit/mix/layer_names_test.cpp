@@ -65,6 +65,11 @@ TEST(LayerInfo, readsTheHeadersJson) {
   EXPECT_FALSE(layers[2].kelvin.has_value());
   EXPECT_TRUE(layers[3].room.empty());
   EXPECT_FALSE(isLamp(layers[3]));
+  EXPECT_FALSE(layers[0].lightColour.has_value());
+  const auto told = layersFromJson(
+      R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "lightColour": [0.5, 0.25, 0]}]})",
+      "a.exr");
+  EXPECT_EQ(told.value()[0].lightColour.value().y, 0.25f);
 }
 
 TEST(LayerInfo, badJsonIsOneClearLine) {
@@ -80,6 +85,14 @@ TEST(LayerInfo, badJsonIsOneClearLine) {
   EXPECT_NE(
       errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "colour": [1, -1, 0]}]})")
           .find("'colour'"),
+      std::string::npos);
+  EXPECT_NE(
+      errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "lightColour": [0, 0]}]})")
+          .find("a.exr: layers[0]"),
+      std::string::npos);
+  EXPECT_NE(
+      errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "lightColour": [0, -1, 0]}]})")
+          .find("'lightColour'"),
       std::string::npos);
 }
 

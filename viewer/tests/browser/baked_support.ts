@@ -80,7 +80,7 @@ export async function serveFolder(file: Uint8Array): Promise<{ link: string; end
 
 export interface BakedVisit {
   readonly page: Page;
-  settled(): Promise<void>;
+  settled(timeoutMs?: number): Promise<void>;
   frames(): Promise<number>; // drawn so far
   stopped(): Promise<string>; // the one line that says why
   shot(name: string): Promise<void>;
@@ -112,12 +112,10 @@ export async function visitHome(
   const stopped = () => page.waitForFunction(() => document.documentElement.dataset.stopped === "true");
   return {
     page,
-    settled: async () => {
+    settled: async (timeout = 180000) => {
       // What has just been set shows in the frame after next.
       await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
-      await page.waitForFunction(() => document.getElementById("view")?.dataset.settled === "true", null, {
-        timeout: 180000,
-      });
+      await page.waitForFunction(() => document.getElementById("view")?.dataset.settled === "true", null, { timeout });
     },
     frames: () => page.locator("#view").evaluate(view => Number((view as HTMLElement).dataset.frames)),
     stopped: async () => {

@@ -11,6 +11,7 @@ interface Shot {
   readonly file: string;
 }
 
+const kLongestMs = 1800000; // a large house takes minutes without a graphics card
 const [, , path, size] = process.argv;
 const [width, height] = (size ?? "").split("x").map(Number);
 if (!path || !width || !height) throw new Error("usage: shoot_baked PAGE WIDTHxHEIGHT < shots.json");
@@ -32,7 +33,7 @@ if (await panel.isVisible()) await panel.click();
 await page.addStyleTag({ content: "body > :not(#view) { visibility: hidden !important; }" });
 for (const { hash, file } of shots) {
   await page.evaluate(to => void (location.hash = to), hash);
-  await visit.settled();
+  await visit.settled(kLongestMs);
   const view = await page.locator("#view").boundingBox();
   if (view?.width !== width || view.height !== height)
     throw new Error(`the picture is ${view?.width}x${view?.height} instead of ${size}`);
