@@ -16,11 +16,11 @@ bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition
   return dot(n, m) > kFacing && off < kToleranceM + kSlope * along;
 }
 
-void addFragments(const Fragments& fragments, int layer, const FilterInput& means,
-                  const std::vector<PixelCount>& counts, std::span<const Vec3> irradiance, Image& image) {
+void addFragments(Fragments& fragments, int layer, const FilterInput& means, const std::vector<PixelCount>& counts,
+                  std::span<const Vec3> irradiance, Image& image) {
   constexpr int kReach = 2;
   for (size_t k = 0; k < fragments.all.size(); ++k) {
-    const Fragment& f = fragments.all[k];
+    Fragment& f = fragments.all[k];
     const int x = static_cast<int>(f.pixel) % means.width, y = static_cast<int>(f.pixel) / means.width;
     const Vec3 place = f.position / f.surface;
     Vec3 sum;
@@ -36,8 +36,9 @@ void addFragments(const Fragments& fragments, int layer, const FilterInput& mean
       }
     }
     // What is seen in one pixel alone is known by a few rays: no brighter than what is around it.
-    Vec3 own = fragments.diffuse(k, layer) / max(f.albedo, Vec3(1e-3f));
-    own *= std::min(1.0f, brightest / std::max(luminance(own), 1e-20f));
+    const Vec3 found = fragments.diffuse(k, layer) / max(f.albedo, Vec3(1e-3f));
+    if (layer < 0) f.kept = std::min(1.0f, brightest / std::max(luminance(found), 1e-20f));
+    const Vec3 own = found * f.kept;
     const float inverse = 1 / static_cast<float>(std::max(1u, counts[f.pixel].rays));
     image.pixels[f.pixel] += (count > 0 ? sum / count : own) * max(f.albedo, Vec3(0)) * inverse;
   }

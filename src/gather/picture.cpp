@@ -147,7 +147,7 @@ class Gathering {
 
  private:
   // A picture of means, with what its edges show of other surfaces: of one layer, or, below 0, of all.
-  Image composedWith(const FilterInput& means, int layer) const {
+  Image composedWith(const FilterInput& means, int layer) {
     if (settings_.filterPasses <= 0) return composed(means);
     std::vector<Vec3> irradiance;
     Image image = filtered(means, settings_.filterPasses, nullptr, keepsFragments_ ? &irradiance : nullptr);
@@ -291,8 +291,12 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
             probes.emplace(TracedScene{rays, lights}, shader, camera, settings, gathering.hasAim(), progress).rays();
       picture.error = probes->of(picture.image);
     }
-    if (!mayGoOn || progress.stop() || picture.error.srgbMse <= settings.untilMse) return gathering.result();
-    gathering.askForMore();
+    if (mayGoOn && !progress.stop() && picture.error.srgbMse > settings.untilMse) {
+      gathering.askForMore();
+      continue;
+    }
+    if (mayGoOn) gathering.composeForGood();  // with layers, too
+    return gathering.result();
   }
 }
 

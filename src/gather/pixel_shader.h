@@ -29,6 +29,7 @@ struct Fragment {
   uint32_t pixel;
   Vec3 diffuse, albedo, normal, position;  // sums over camera rays, as FilterPixel's
   float surface = 0, luminance = 0;  // luminance: with what of its light is not filtered
+  float kept = 1;  // of its own diffuse light, in the picture composed last
 };
 struct Fragments {  // of a tile
   std::vector<Fragment> all;
@@ -45,9 +46,10 @@ struct Fragments {  // of a tile
 bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition);
 
 // Adds their light to a picture that was filtered without them: of pixels around that see the same surface, by their
-// irradiance after filtering; where there is none their own. `layer`: that the picture is of; below 0: of all.
-void addFragments(const Fragments& fragments, int layer, const FilterInput& means,
-                  const std::vector<PixelCount>& counts, std::span<const Vec3> irradiance, Image& image);
+// irradiance after filtering; where there is none their own, bounded. `layer`: that the picture is of; below 0: of all,
+// which goes before layers and tells how much of their own light they keep.
+void addFragments(Fragments& fragments, int layer, const FilterInput& means, const std::vector<PixelCount>& counts,
+                  std::span<const Vec3> irradiance, Image& image);
 
 // Of each pixel the luminance of what it shows beside its own surface and no pixel beside it shows as its own: things
 // and grooves thinner than pixels. What they shine by themselves is not in it. -1: nothing. `sums`: over camera rays.
@@ -98,14 +100,14 @@ struct TileWork {
   struct Part {  // one surface in one pixel
     PixelSum pixel;
     uint32_t first, count;  // shadings
-    Vec3 left;              // share of their light that reaches the eye
-    float weight;           // camera rays that each stands for
-    bool turn;              // whether its pixel is one of those that gather for others
+    Vec3 left;  // share of their light that reaches the eye
+    float weight;  // camera rays that each stands for
+    bool turn;  // whether its pixel is one of those that gather for others
     uint32_t gathers = 1, glossy = 1;  // what its diffuse and specular light counts for
-    Vec3 normal{}, position{};   // sums over the camera rays that saw no solid surface before it; none of mirrors
+    Vec3 normal{}, position{};  // sums over the camera rays that saw no solid surface before it; none of mirrors
     float roughness = 0, surface = 0;
-    bool veil = false;       // lets most light through: a surface only where nothing solid is seen behind
-    bool once = false;       // lit by single estimates
+    bool veil = false;  // lets most light through: a surface only where nothing solid is seen behind
+    bool once = false;  // lit by single estimates
     float survival = 1;  // probability that it was lit at all: what is found stands for those that were not; unlit
                          // parts have no shadings
     Vec3 unlitAlbedo{};  // sum over the camera rays of an unlit part
