@@ -131,6 +131,7 @@ class Gathering {
 
   bool isGivenUp() const { return settings_.orNothing && progress_.stop(); }
   bool isLate() const { return late_; }
+  bool keepsLayers() const { return layers_; }
   bool hasAim() const { return settings_.untilMse > 0; }
   bool mayGoOn() const {
     return hasAim() && !late_ && !progress_.stop() && result_.samples < settings_.samples && tolerance_ > kFinest;
@@ -295,7 +296,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
       gathering.askForMore();
       continue;
     }
-    if (mayGoOn) gathering.composeForGood();  // with layers, too
+    if (mayGoOn && gathering.keepsLayers()) gathering.composeForGood();  // so far there is the whole alone
     return gathering.result();
   }
 }

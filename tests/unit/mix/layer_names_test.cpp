@@ -76,24 +76,15 @@ TEST(LayerInfo, badJsonIsOneClearLine) {
   const auto errorOf = [](const char* text) { return layersFromJson(text, "a.exr").error(); };
   EXPECT_NE(errorOf("{").find("a.exr: "), std::string::npos);
   EXPECT_EQ(errorOf(R"({"version": 2, "layers": []})"), "a.exr: is of version 2, this program reads 1");
-  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A"}]})")
-                .find("a.exr: layers[0]: key 'kind' not found"),
-            std::string::npos);
-  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "moon"}]})")
-                .find("unknown kind 'moon'"),
-            std::string::npos);
-  EXPECT_NE(
-      errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "colour": [1, -1, 0]}]})")
-          .find("'colour'"),
-      std::string::npos);
-  EXPECT_NE(
-      errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "lightColour": [0, 0]}]})")
-          .find("a.exr: layers[0]"),
-      std::string::npos);
-  EXPECT_NE(
-      errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "lightColour": [0, -1, 0]}]})")
-          .find("'lightColour'"),
-      std::string::npos);
+  const auto expectError = [&](const std::string& kind, const char* part) {
+    const std::string text = R"({"version": 1, "layers": [{"channel": "a", "name": "A")" + kind + "}]}";
+    EXPECT_NE(errorOf(text.c_str()).find(part), std::string::npos) << text;
+  };
+  expectError("", "a.exr: layers[0]: key 'kind' not found");
+  expectError(R"(, "kind": "moon")", "unknown kind 'moon'");
+  expectError(R"(, "kind": "lamp", "colour": [1, -1, 0])", "'colour'");
+  expectError(R"(, "kind": "lamp", "lightColour": [0, -1, 0])", "'lightColour'");
+  expectError(R"(, "kind": "lamp", "lightColour": [0, 0])", "a.exr: layers[0]");
 }
 
 }  // namespace
