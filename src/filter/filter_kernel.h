@@ -17,9 +17,11 @@ class FilterRows {
   static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights,
                        kLight = kSeen + kFilterLights, kVariance = 3, kWeight = 4, kParts = 5;
   // kReflected: normal and place of what is seen in panes, else those of the pixel.
-  // Of diffuse light by levels (levels.h): what of them is kept so far, its noise, and what is pooled, in two places.
+  // Of diffuse light by levels (levels.h): what of them is kept so far, its noise, and what is pooled, in two places;
+  // kTrust: weights by the noise of each place.
   static constexpr int kKept = kLight + kFilterLights * 2 * kParts, kKeptNoise = kKept + 3, kPool = kKeptNoise + 1,
-                       kPooled = 5, kOpen = kPool + 2 * kPooled, kReflected = kOpen + 2, kCount = kReflected + 6;
+                       kPooled = 6, kOpen = kPool + 2 * kPooled, kReflected = kOpen + 2, kTrust = kReflected + 6,
+                       kCount = kTrust + 1;
   static constexpr int light(int k, int place) { return kLight + (2 * k + place) * kParts; }
   static constexpr int open(int place) { return kOpen + place; }
   static constexpr int pool(int place) { return kPool + kPooled * place; }

@@ -11,7 +11,8 @@ namespace roomlight {
 namespace {
 
 constexpr int kFinestLevels = 2;
-constexpr size_t kBounded = 0, kNoise = 1, kPower = 2, kCross = 3, kOpen2 = 4;  // what is pooled
+constexpr size_t kBounded = 0, kNoise = 1, kPower = 2, kCross = 3, kOpen2 = 4,
+                 kWeights = 5;  // what is pooled, each times the weight of its pixel
 constexpr int kColours = 3, kDrawn = 3;  // parts of diffuse light: its colour, then its drawn noise
 constexpr float kFine = 2, kCoarse = 1.1f;  // times the noise that a level is believed to hold: in single pixels it is
                                             // seen at once, and told by fewer of them
@@ -19,6 +20,8 @@ constexpr float kExplained = 0.1f;  // times that noise as well: what openness t
                                     // pixels and holds little of theirs
 constexpr float kOwnPart = 0.03f;  // of what is pooled around a pixel is its own
 constexpr float kLeastOpen2 = 8e-4f;  // what openness differs by more is believed to tell something
+constexpr float kDoubtfulSamples = 16;  // so many tell as much of a place's noise as what is around does
+constexpr float kMostUnlike = 8;  // times as much noise as those around, or as little, a pixel may have
 constexpr float kMostOfPixel = 6;  // times the noise around: more is an outlier
 // Of the noise that independent pixels would leave in each level, as variance. Pixels of a block share one
 // well-distributed sequence (gather/pixel_shader), so the wider a level the less there is. Measured on walls of the
@@ -63,29 +66,34 @@ void takePower(FilterRows& rows, int place, int y) {
   const Pooled pooled = pooledOf(rows, y);
   const float* weight = partOf(rows, place, FilterRows::kWeight, y);
   forLevel(rows, place, y, [&](int x, float d, float n, float a) {
-    const float known = weight[x] > 0 ? 1.0f : 0.0f;
-    pooled[kBounded][x] = pooled[kPower][x] = known * d * d, pooled[kNoise][x] = known * n * n;
-    pooled[kCross][x] = known * d * a, pooled[kOpen2][x] = known * a * a;
+    const float w = weight[x];
+    pooled[kBounded][x] = pooled[kPower][x] = w * d * d, pooled[kNoise][x] = w * n * n;
+    pooled[kCross][x] = w * d * a, pooled[kOpen2][x] = w * a * a, pooled[kWeights][x] = w;
   });
 }
 
 void boundPower(FilterRows& rows, int place, int y) {
   const Pooled pooled = pooledOf(rows, y);
-  const float* weight = partOf(rows, place, FilterRows::kWeight, y);
-  forLevel(rows, place, y, [&](int x, float d, float, float a) {
-    const bool known = weight[x] > 0;
-    const float power = known ? d * d : 0, most = kMostOfPixel * pooled[kNoise][x];
+  const float *weight = partOf(rows, place, FilterRows::kWeight, y),
+              *beside = rows.line(FilterRows::pool(1) + static_cast<int>(kNoise), y);
+  float* trust = rows.line(FilterRows::kTrust, y);
+  forLevel(rows, place, y, [&](int x, float d, float n, float a) {
+    // A shadow has less noise than the light around it, the more samples the surer: there its weight is larger.
+    const float around = std::max(pooled[kNoise][x], 1e-30f), samples = weight[x],
+                unlike = (kDoubtfulSamples + samples * beside[x] / around) / (kDoubtfulSamples + samples);
+    const float w = trust[x] = samples / std::clamp(unlike, 1 / kMostUnlike, kMostUnlike), power = w * d * d,
+                most = kMostOfPixel * pooled[kNoise][x];
     const bool outlier = most > 0 && power > most;
-    pooled[kPower][x] = power, pooled[kBounded][x] = outlier ? most : power;
-    pooled[kCross][x] = known ? a * (outlier ? std::copysign(std::sqrt(most), d) : d) : 0,
-    pooled[kOpen2][x] = known ? a * a : 0;
+    pooled[kPower][x] = power, pooled[kBounded][x] = outlier ? most : power, pooled[kNoise][x] = w * n * n;
+    pooled[kCross][x] = a * (outlier ? std::copysign(std::sqrt(w * most), d) : w * d);
+    pooled[kOpen2][x] = w * a * a, pooled[kWeights][x] = w;
   });
 }
 
 void keepLevel(FilterRows& rows, int level, int place, int y) {
   const Pooled pooled = pooledOf(rows, y);
-  const float* weight = partOf(rows, place, FilterRows::kWeight, y);
   const bool outliers = hasOutliers(level);
+  const float* weight = outliers ? rows.line(FilterRows::kTrust, y) : partOf(rows, place, FilterRows::kWeight, y);
   const float ofIndependent = noisePart(level), doubt = (outliers ? kFine : kCoarse) * ofIndependent;
   const float *fine[kColours + 1], *smooth[kColours + 1];
   float* kept[kColours + 1];
@@ -97,11 +105,12 @@ void keepLevel(FilterRows& rows, int level, int place, int y) {
     if (!(weight[x] > 0)) continue;
     // What openness tells of it, by how light follows it on other pixels around: by its own, a lone pixel would explain
     // itself.
-    const float noise = pooled[kNoise][x], most = std::sqrt(kMostOfPixel * noise), a = open[x] - smoothOpen[x];
+    const float w = weight[x], noise = pooled[kNoise][x], most = std::sqrt(kMostOfPixel * noise / w),
+                a = open[x] - smoothOpen[x];
     const float d = luminance(Vec3{fine[0][x] - smooth[0][x], fine[1][x] - smooth[1][x], fine[2][x] - smooth[2][x]}),
                 bound = outliers && most > 0 ? std::clamp(d, -most, most) : d;
-    const float cross = pooled[kCross][x] - kOwnPart * a * bound,
-                open2 = std::max(0.0f, pooled[kOpen2][x] - kOwnPart * a * a) + kLeastOpen2;
+    const float cross = pooled[kCross][x] - kOwnPart * w * a * bound,
+                open2 = std::max(0.0f, pooled[kOpen2][x] - kOwnPart * w * a * a) + kLeastOpen2 * pooled[kWeights][x];
     const float explained = cross * cross / open2, doubted = kExplained * ofIndependent * noise;
     const float told = explained > doubted ? (1 - doubted / explained) * cross / open2 * a : 0;
     const float around = luminance(Vec3{smooth[0][x], smooth[1][x], smooth[2][x]}),
@@ -110,7 +119,9 @@ void keepLevel(FilterRows& rows, int level, int place, int y) {
     // As much as stands out, once it is no work of single pixels.
     const float bounded = pooled[kBounded][x],
                 sure = outliers ? std::min(1.0f, bounded / std::max(believed, 1e-30f) - 1) : 1;
-    const float gain = bounded > believed ? sure * (1 - believed / pooled[kPower][x]) : 0;
+    const float signal = pooled[kPower][x] - believed,
+                own = believed * std::clamp(pooled[kWeights][x] / w, 1 / kMostUnlike, kMostUnlike);
+    const float gain = bounded > believed ? sure * signal / (signal + own) : 0;
     for (int c = 0; c <= kColours; ++c) {
       const float part = c < kColours ? ratio * smooth[c][x] : 0;
       kept[c][x] += part + gain * (fine[c][x] - smooth[c][x] - part);

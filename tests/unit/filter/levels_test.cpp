@@ -92,6 +92,23 @@ TEST(Levels, lonePixelsOfOpennessLeaveNoSpecks) {
   EXPECT_LT(errorOf(filtered(wall, kPasses), light, onLone), 1.15 * before);
 }
 
+// A narrow shadow that many samples know well, in light that few know.
+TEST(Levels, shadowsStayThatHaveLessNoiseThanTheLightAroundThem) {
+  const auto isShadow = [](int x) { return x >= 94 && x < 97; };
+  const auto light = [&](int x, int) { return isShadow(x) ? 2.0f : 10.0f; };
+  FilterInput in = wallWith(light, 0.9f);
+  FilterInput sure = wallWith(light, 0.1f);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (isShadow(x)) in.at(x, y) = sure.at(x, y);
+      in.at(x, y).weight = isShadow(x) ? 20 : 4;
+    }
+  }
+  const Image after = filtered(in, kPasses);
+  EXPECT_LT(errorOf(after, light, [&](int x, int y) { return inside(x, y) && isShadow(x); }), 0.8);
+  EXPECT_LT(errorOf(after, light, [&](int x, int y) { return inside(x, y) && std::abs(x - 95) > 16; }), 0.08);
+}
+
 TEST(Levels, softShadowsStay) {
   const auto light = [](int x, int y) {
     return 10 + 4 * std::sin(0.12f * static_cast<float>(x)) + 0.02f * static_cast<float>(y);
