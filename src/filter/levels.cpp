@@ -14,14 +14,14 @@ constexpr int kFinestLevels = 2;
 constexpr size_t kBounded = 0, kNoise = 1, kPower = 2, kCross = 3, kOpen2 = 4,
                  kWeights = 5;  // what is pooled, each times the weight of its pixel
 constexpr int kColours = 3, kDrawn = 3;  // parts of diffuse light: its colour, then its drawn noise
-constexpr float kFine = 2, kCoarse = 1.1f;  // times the noise that a level is believed to hold: in single pixels it is
-                                            // seen at once, and told by fewer of them
+constexpr float kFine = 1.75f, kCoarse = 1.1f;  // times the noise that a level is believed to hold: in single pixels it
+                                                // is seen at once, and told by fewer of them
 constexpr float kExplained = 0.1f;  // times that noise as well: what openness tells of a level is pooled from many
                                     // pixels and holds little of theirs
 constexpr float kOwnPart = 0.03f;  // of what is pooled around a pixel is its own
 constexpr float kLeastOpen2 = 8e-4f;  // what openness differs by more is believed to tell something
 constexpr float kDoubtfulSamples = 16;  // so many tell as much of a place's noise as what is around does
-constexpr float kMostUnlike = 8;  // times as much noise as those around, or as little, a pixel may have
+constexpr float kMostUnlike = 8;  // times as much noise as those around, or as little, a pixel is believed to have
 constexpr float kMostOfPixel = 6;  // times the noise around: more is an outlier
 // Of the noise that independent pixels would leave in each level, as variance. Pixels of a block share one
 // well-distributed sequence (gather/pixel_shader), so the wider a level the less there is. Measured on walls of the
@@ -77,14 +77,14 @@ void boundPower(FilterRows& rows, int place, int y) {
   const float *weight = partOf(rows, place, FilterRows::kWeight, y),
               *beside = rows.line(FilterRows::pool(1) + static_cast<int>(kNoise), y);
   float* trust = rows.line(FilterRows::kTrust, y);
-  forLevel(rows, place, y, [&](int x, float d, float n, float a) {
-    // A shadow has less noise than the light around it, the more samples the surer: there its weight is larger.
+  forLevel(rows, place, y, [&](int x, float d, float, float a) {
+    // A shadow has less noise than the light around it, the more samples the surer: there its weight is larger. The
+    // noise pooled so far stands for that weight times the place's own; draws that chose their weight would tell less.
     const float around = std::max(pooled[kNoise][x], 1e-30f), samples = weight[x],
                 unlike = (kDoubtfulSamples + samples * beside[x] / around) / (kDoubtfulSamples + samples);
-    const float w = trust[x] = samples / std::clamp(unlike, 1 / kMostUnlike, kMostUnlike), power = w * d * d,
-                most = kMostOfPixel * pooled[kNoise][x];
+    const float w = trust[x] = samples / unlike, power = w * d * d, most = kMostOfPixel * pooled[kNoise][x];
     const bool outlier = most > 0 && power > most;
-    pooled[kPower][x] = power, pooled[kBounded][x] = outlier ? most : power, pooled[kNoise][x] = w * n * n;
+    pooled[kPower][x] = power, pooled[kBounded][x] = outlier ? most : power;
     pooled[kCross][x] = a * (outlier ? std::copysign(std::sqrt(w * most), d) : w * d);
     pooled[kOpen2][x] = w * a * a, pooled[kWeights][x] = w;
   });
@@ -120,7 +120,8 @@ void keepLevel(FilterRows& rows, int level, int place, int y) {
     const float bounded = pooled[kBounded][x],
                 sure = outliers ? std::min(1.0f, bounded / std::max(believed, 1e-30f) - 1) : 1;
     const float signal = pooled[kPower][x] - believed,
-                own = believed * std::clamp(pooled[kWeights][x] / w, 1 / kMostUnlike, kMostUnlike);
+                own =
+                    outliers ? believed * std::clamp(pooled[kWeights][x] / w, 1 / kMostUnlike, kMostUnlike) : believed;
     const float gain = bounded > believed ? sure * signal / (signal + own) : 0;
     for (int c = 0; c <= kColours; ++c) {
       const float part = c < kColours ? ratio * smooth[c][x] : 0;

@@ -24,7 +24,8 @@ bool hasOutliers(int level);
 float drawnNoise(float variance, size_t pixel);
 // Power of a level in row y, and of the noise in it, for pooling.
 void takePower(FilterRows& rows, int place, int y);
-// The power once more, of each pixel no more than a few times the noise pooled around it.
+// The power once more, of each pixel no more than a few times the noise pooled around it; weights by samples and by the
+// noise close by, which is in the second pool.
 void boundPower(FilterRows& rows, int place, int y);
 // Adds what stands out of noise there to what is kept. Pooled powers are in the first pool.
 void keepLevel(FilterRows& rows, int level, int place, int y);

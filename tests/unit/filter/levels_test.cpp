@@ -92,6 +92,17 @@ TEST(Levels, lonePixelsOfOpennessLeaveNoSpecks) {
   EXPECT_LT(errorOf(filtered(wall, kPasses), light, onLone), 1.15 * before);
 }
 
+// Weights that are alike everywhere change nothing but by how many samples tell of the noise close by.
+TEST(Levels, wallsOfManySamplesComeOutAsClean) {
+  const auto light = [](int, int) { return 10.0f; };
+  FilterInput wall = wallWith(light, 0.4f);
+  const double few = errorOf(filtered(wall, kPasses), light, inside);
+  for (FilterPixel& p : wall.pixels) p.weight = 20;
+  const Image after = filtered(wall, kPasses);
+  EXPECT_LT(errorOf(after, light, inside), 1.1 * few);
+  EXPECT_NEAR(momentsOf(after, 0, kWidth).mean, 5, 0.03);
+}
+
 // A narrow shadow that many samples know well, in light that few know.
 TEST(Levels, shadowsStayThatHaveLessNoiseThanTheLightAroundThem) {
   const auto isShadow = [](int x) { return x >= 94 && x < 97; };
