@@ -12,7 +12,7 @@
 namespace roomlight {
 
 constexpr float kClear = 0.1f;  // roughness below which a reflection is a picture: what it shows is lit afresh
-constexpr float kSpread = 0.4f;  // roughness of what is seen by rough surfaces, at least
+constexpr float kSpread = 0.4f;  // roughness, at least, with which what rough surfaces see reflects suns and lamps
 
 // A ray on its way, and the parts of what it finds that its surface's lobes send to the eye.
 struct GatherPath {
@@ -31,7 +31,7 @@ struct GatherPath {
   bool causticsKnown;  // of what its diffuse part finds photons have brought the light straight from suns, lamps and
                        // emissive meshes, once polished surfaces have reflected it
   bool picture;  // seen by the camera in a surface as smooth as a mirror
-  float spread;  // roughness that surfaces have for it at least
+  float spread;  // roughness, at least, with which surfaces reflect suns and lamps for it
   bool sunKnown = false;  // what it finds of the sun itself is counted elsewhere
 };
 
@@ -53,6 +53,7 @@ struct GatherVertex {
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
   float gloss = 0;  // above zero: of a later vertex the glossy lobe alone, times this,
   bool sunKnown = false;  // and without what it reflects of the sun
+  const Bsdf* blunt = nullptr;  // of later vertices, in place of `bsdf` towards suns and lamps
   const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
 
   // Whether what its glossy lobe reflects is seen as a picture.
@@ -64,7 +65,11 @@ struct GatherVertex {
 
   Lobes value(Vec3 wi) const {
     if (first) return {glossOnly ? Vec3(0) : bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
-    const Vec3 f = gloss > 0 ? bsdf.evaluateSpecular(wi) * gloss : bsdf.evaluate(wi);
+    return later(bsdf, wi);
+  }
+  // The same of a later vertex.
+  Lobes later(const Bsdf& by, Vec3 wi) const {
+    const Vec3 f = gloss > 0 ? by.evaluateSpecular(wi) * gloss : by.evaluate(wi);
     return {factor.diffuse * f, factor.specular * f};
   }
   // Density with which its rays go on along wi.

@@ -80,11 +80,12 @@ void RayScatter::from(const GatherVertex& v, GatherWork& w) const {
 
 float RayScatter::cosinePdf(const GatherVertex& v, Vec3 wi) { return std::max(0.0f, dot(wi, v.s.ns)) / kPi; }
 
-void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly,
-                           GatherWork& w) const {
+void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, bool isWide, const LightOrigin& origin,
+                           bool layersOnly, GatherWork& w) const {
   if (!light.valid() || dot(light.wi, v.s.ng) <= 0) return;
-  Lobes f = v.value(light.wi);
-  if (light.pdf > 0) {
+  const bool blunt = v.blunt && !isWide;
+  Lobes f = blunt ? v.later(*v.blunt, light.wi) : v.value(light.wi);
+  if (light.pdf > 0 && !blunt) {
     // Rays that gather find the same lights; the two share them by multiple importance sampling.
     if (v.apart) {
       f.diffuse *= misWeight(light.pdf, v.guided(cosinePdf(v, light.wi), light.wi));
@@ -128,7 +129,7 @@ void RayScatter::lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork
   if (!v.first) local.factor = withoutCaustics(v.factor, v.causticsKnown);
   if (asksLayers) layersAt(local, w);
   const auto take = [&](const LightSample& light, int32_t layer, float weight = 1) {
-    takeLight(local, light, LightOrigin::ofLayer(layer, weight), false, w);
+    takeLight(local, light, light.emitter >= 0, LightOrigin::ofLayer(layer, weight), false, w);
   };
   const auto takeLocal = [&](const LightSample& light) {
     take(light, layers ? layers->of(light) : -1, asksLayers && (v.first || light.lamp >= 0) ? kPictureShare : 1);
@@ -157,7 +158,7 @@ void RayScatter::lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork
   if (!(sky.weight > 0)) return;
   LightSample light = skyLight(lights_, sky.sample);
   light.radiance *= sky.weight;
-  takeLight(v, light, LightOrigin::ofLayer(layers ? layers->sky : -1), false, w);
+  takeLight(v, light, true, LightOrigin::ofLayer(layers ? layers->sky : -1), false, w);
 }
 
 // Seldom where the sky can give little beside the light expected, as by night: the draw itself, from large tables,
@@ -203,7 +204,7 @@ void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
       LightSample light = sampleLayer(l, v.s.p, lamps, v.first, sampler);
       light.radiance *= 1 / static_cast<float>(n), light.pdf *= static_cast<float>(n);
       if (v.first || !leavesToCache(v, light))
-        takeLight(v, light, LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
+        takeLight(v, light, light.emitter >= 0, LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
     }
   }
 }
@@ -225,7 +226,7 @@ void RayScatter::lampsOfMeterAt(const GatherVertex& v, uint64_t reach, GatherWor
     if (!(chance > 0) || sampler.fast1() >= chance) continue;
     LightSample light = lights_.sampleLamp(i, v.s.p, sampler.next2());
     light.radiance *= 1 / chance;
-    if (!leavesToCache(v, light)) takeLight(v, light, LightOrigin::ofLayer(layer), true, w);
+    if (!leavesToCache(v, light)) takeLight(v, light, false, LightOrigin::ofLayer(layer), true, w);
   }
 }
 
@@ -345,7 +346,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
                       v.causticsKnown,
                       clear && v.picture(),
                       spread,
-                      v.sunKnown});
+                      v.sunKnown || v.blunt});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

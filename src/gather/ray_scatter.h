@@ -41,8 +41,9 @@ class RayScatter {
   void lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork& w) const;
   DrawnSky drawSky(const GatherVertex& v, GatherWork& w) const;
   static float askingWeight(float most, uint32_t estimate, GatherWork& w);
-  void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly,
-                 GatherWork& w) const;
+  // `isWide`: rays that go on find it, too; else, where the vertex is blunt, none looks for it.
+  void takeLight(const GatherVertex& v, const LightSample& light, bool isWide, const LightOrigin& origin,
+                 bool layersOnly, GatherWork& w) const;
   // Whether layers' lamps are sampled for what the camera sees: else each of them is asked by whoever wants its light.
   bool asksLamps(bool lampsKnown) const { return sampleLamps_ && !lampsKnown; }
   void layersAt(const GatherVertex& v, GatherWork& w) const;

@@ -1,5 +1,7 @@
 #include "gather/ray_shader.h"
 
+#include <optional>
+
 #include "base/parallel.h"
 #include "base/sampling.h"
 #include "radiance/sky_guide.h"
@@ -41,6 +43,14 @@ uint8_t kindOf(const Material& m) {
 }
 
 bool isFaint(const GatherPath& path) { return luminance(path.factor.diffuse + path.factor.specular) < kFaintShare; }
+
+// What a mirror throws on others from lights that rays hardly meet is found by chance only, too rarely: it is spread
+// (Kaplanyan & Dachsbacher 2013, path space regularization). None where the surface is rough enough.
+std::optional<Bsdf> bluntFor(const GatherPath& path, SurfacePoint s) {
+  if (s.m.roughness >= path.spread) return {};
+  s.m.roughness = path.spread;
+  return Bsdf(s.m, s.ns, s.ng, -path.ray.direction);
+}
 
 BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field,
                         const RayGatherSettings& settings) {
@@ -509,13 +519,12 @@ bool RayShader::isInGlow(Vec3 p, Vec3 n) const {
 // Lights the surface afresh.
 void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const {
   if (path.depth >= kMostVertices) return;
-  // What a mirror throws on others is found by chance only, too rarely: it is spread (Kaplanyan & Dachsbacher 2013,
-  // path space regularization).
-  s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
   GatherVertex v{s,     bsdf,  path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false,
                  false, clear, !path.clear};
+  const std::optional<Bsdf> blunt = bluntFor(path, s);
+  v.blunt = blunt ? &*blunt : nullptr;
   v.causticsKnown = path.causticsKnown && throwsLight(*s.material);
   v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s.p, s.ng);
   scatter_.from(v, w);
@@ -576,7 +585,6 @@ void RayShader::addCached(const GatherPath& path, const Hit& hit, const CachedLi
 Vec3 RayShader::leaveToGloss(const GatherPath& path, const Hit& hit, const CachedLight& light, GatherWork& w) const {
   SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   const Vec3 all = bihemisphericalAlbedo(s.m);
-  s.m.roughness = std::max(s.m.roughness, path.spread);
   if (s.m.roughness >= kGlossy || s.m.metallic > kMetal || isInGlow(s.p, s.ng)) return {};
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const float glossy = luminance(bsdf.specularAlbedo()), sum = glossy + luminance(bsdf.diffuseAlbedo());
@@ -585,6 +593,8 @@ Vec3 RayShader::leaveToGloss(const GatherPath& path, const Hit& hit, const Cache
   if (w.samplers[path.estimate].fast1() < chance) {
     GatherVertex v{s,     bsdf,  path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false,
                    false, false, false};
+    const std::optional<Bsdf> blunt = bluntFor(path, s);
+    v.blunt = blunt ? &*blunt : nullptr;
     v.gloss = 1 / chance, v.sunKnown = lights_.sunCount() == 1;
     scatter_.from(v, w);
   }

@@ -469,6 +469,32 @@ TEST(Hybrid, sunGlintsOfAFloorReachTheWall) {
   EXPECT_NEAR(measured, expected, 0.02 * expected);
 }
 
+// A glowing panel under a shelf over a polished floor, and a part of the ceiling from where the shelf hides the panel's
+// mirror image: paths that begin at a rough surface meet the others as smooth as they are. A floor of roughness 0.4
+// lights it eight times as much.
+TEST(Hybrid, polishedFloorThrowsLightWhereItShould) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.6f)),
+            black = test::addMaterial(scene, test::lambertian(0));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.4f, 4}, std::vector<int>(6, black));
+  test::addRectangle(scene, {0, 2.37f, 0}, {4, 0, 0}, {0, 0, 4}, white);
+  Material polish;
+  polish.metallic = 0, polish.roughness = 0.15f, polish.baseColor = Vec3(0.001f);
+  test::addRectangle(scene, {0, 0.03f, 0}, {0, 0, 4}, {4, 0, 0}, test::addMaterial(scene, polish));
+  test::addRectangle(scene, {3.9f, 0.3f, 0.5f}, {0, 0, 3}, {0, 0.5f, 0},
+                     test::addMaterial(scene, test::lambertian(0, 1000)));
+  test::addBox(scene, {3, 0.85f, 0}, {4, 0.9f, 4}, black);
+  const Lit lit(std::move(scene), 0.08f);
+  Camera camera = cameraAt({2.3f, 1.2f, 2.2f}, {2.6f, 2.37f, 2});
+  camera.yFovRad = 0.5f;
+  RayGatherSettings many = Lit::small();
+  many.samples = 512, many.tolerance = 0, many.filterPasses = 0;
+  const double expected = meanByPath(lit.rays, lit.lights, camera, 2048), measured = mean(lit.hybrid(camera, many));
+  test::record("Ceiling beside what a polished floor throws on it, mean luminance, cd/m²", "roughness 0.15", "hybrid",
+               expected, measured);
+  EXPECT_NEAR(measured, expected, 0.5 * expected);
+}
+
 // A sunlit wall in a black floor of satin lacquer: a faint picture, whose rays alone bring it.
 TEST(Hybrid, satinLacquerShowsASunlitWall) {
   Scene scene;
