@@ -14,6 +14,7 @@ struct PictureSettings {
   int firstSamples = 8;     // before it is known which pixels need more
   float tolerance = 0;  // relative standard error of a pixel's luminance above which it does; 0: all pixels get all
   int raysPerShading = 2;  // camera rays that see one surface and share its light: cones, shadow rays, a reflection
+  int laterShare = 1;  // times as many share it after the first pass
   int fewestShadings = 2;  // where there are as many rays
   int gatherEvery = 1;  // pixels of which one gathers for all, a power of two, by as many times the estimates; the
                         // filter spreads what it finds

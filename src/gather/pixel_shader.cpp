@@ -215,8 +215,9 @@ PixelShader::ShadingPlan PixelShader::planned(const SeenSurface& seen, const Mat
                                               const PixelCount& known) const {
   const Group& group = seen.group;
   ShadingPlan plan;
+  const int raysPerShading = settings_.raysPerShading * (known.rays > 0 ? settings_.laterShare : 1);
   plan.most = std::max(std::min(static_cast<size_t>(settings_.fewestShadings), seen.rays),
-                       seen.rays / static_cast<size_t>(settings_.raysPerShading));
+                       seen.rays / static_cast<size_t>(raysPerShading));
   plan.mirror = isMirror(m, clear);
   plan.pane = isPane(m, clear);
   // What panes reflect is a picture: every ray shows its own of it, at first. Panes behind others show the same again.

@@ -75,6 +75,8 @@ T interpolate(const std::vector<T>& values, const Mesh& mesh, TrianglePoint p) {
   return values[i[0]] * (1 - p.b1 - p.b2) + values[i[1]] * p.b1 + values[i[2]] * p.b2;
 }
 
+}  // namespace
+
 float alphaByMode(const Material& material, float alpha) {
   switch (material.alphaMode) {
     case AlphaMode::Mask: return alpha >= material.alphaCutoff ? 1.0f : 0.0f;
@@ -82,8 +84,6 @@ float alphaByMode(const Material& material, float alpha) {
     default: return 1;
   }
 }
-
-}  // namespace
 
 Vec2 transformUv(const TextureRef& ref, Vec2 uv) {
   return {ref.m[0][0] * uv.x + ref.m[0][1] * uv.y + ref.m[0][2], ref.m[1][0] * uv.x + ref.m[1][1] * uv.y + ref.m[1][2]};

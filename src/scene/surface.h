@@ -45,6 +45,7 @@ VertexValues vertexValuesAt(const Mesh& mesh, TrianglePoint p);
 
 MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);
 MaterialSample materialAt(const Scene& scene, const Material& material, const VertexValues& values);
+float alphaByMode(const Material& material, float alpha);  // as blended, cut out, or opaque
 float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);  // only the alpha, cheaper
 // The same values all over a mesh: neither textures nor colours of vertices.
 bool isUniform(const Material& m, const Mesh& mesh);

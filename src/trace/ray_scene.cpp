@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "scene/surface.h"
 #include "trace/embree.h"
+#include "trace/even_transmittance.h"
 #include "trace/surfaces.h"
 
 namespace roomlight {
@@ -20,6 +21,7 @@ constexpr size_t kFlattenLimit = 6'000'000;
 struct GeometryTag {  // what a filter function needs to know of the geometry it is called for
   const Scene* scene;
   const Mesh* mesh;
+  float through;  // where that is the same all over and from all sides; below 0: it is not
 };
 
 #if defined(__SANITIZE_THREAD__)
@@ -32,7 +34,7 @@ constexpr unsigned kStill = 0, kMoving = 1;  // parts of the top, once anything 
 
 struct Query : RayQuery {
   const uint8_t* gone = nullptr;  // per instance; null: none is
-  Vec3* left = nullptr;           // of shadow rays: one per ray of the packet, indexed by ray id
+  Vec3* left = nullptr;  // of shadow rays: one per ray of the packet, indexed by ray id
 };
 
 // Whether the surface of what has moved is met where it is no longer.
@@ -71,11 +73,16 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
       args->valid[i] = 0;
       continue;
     }
+    Vec3& left = query.left[RTCRayN_id(args->ray, n, i)];
+    if (tag->through >= 0) {
+      left *= tag->through;
+      if (!isBlack(left)) args->valid[i] = 0;
+      continue;
+    }
     const TrianglePoint p{RTCHitN_primID(args->hit, n, i), RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i)};
     const Vec3 ng{RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)};
     const Vec3 d{RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)};
     const float cosTheta = std::abs(dot(ng, d)) / std::sqrt(lengthSquared(ng) * lengthSquared(d));
-    Vec3& left = query.left[RTCRayN_id(args->ray, n, i)];
     left *= straightTransmittance(*tag->scene, *tag->mesh, p, cosTheta);
     if (!isBlack(left)) args->valid[i] = 0;
   }
@@ -191,7 +198,8 @@ void RayScene::State::build() {
   gone.clear(), movingMesh.clear();
   tags.clear();
   tags.reserve(scene->meshes.size());
-  for (const Mesh& mesh : scene->meshes) tags.push_back({scene, &mesh});
+  EvenTransmittance even(*scene);
+  for (const Mesh& mesh : scene->meshes) tags.push_back({scene, &mesh, even.of(mesh)});
   meshScenes.assign(scene->meshes.size(), nullptr);
 
   std::vector<int> uses(scene->meshes.size(), 0);

@@ -113,5 +113,28 @@ TEST(RaySceneUpdate, aPaneThatMovedLetsAllLightPassWhereItWas) {
   EXPECT_FLOAT_EQ(rays.transmittance({{1.3f, 0.9f, 1.6f}, {0, 1, 0}, 0, 0.2f}).x, 1);
 }
 
+// A texture is read where it lets more through in some places; an opaque one leaves that to the material.
+TEST(RayScene, blendedSurfacesLetThroughWhatTextureAndMaterialSay) {
+  Scene scene;
+  Texture opaque, half;
+  opaque.width = half.width = 2, opaque.height = half.height = 1;
+  opaque.rgba = {9, 99, 199, 255, 9, 99, 199, 255}, half.rgba = {9, 99, 199, 255, 9, 99, 199, 0};
+  scene.textures = {opaque, half};
+  const auto addCloth = [&](float z, int texture) {
+    Material cloth = test::lambertian(0.5f);
+    cloth.alphaMode = AlphaMode::Blend, cloth.alpha = 0.25f, cloth.baseColorTexture.texture = texture;
+    test::addRectangle(scene, {0, 0, z}, {1, 0, 0}, {0, 1, 0}, test::addMaterial(scene, cloth));
+    Mesh& mesh = scene.meshes.back();
+    for (const Vec3& p : mesh.positions) mesh.uv[0].push_back({p.x, p.y});
+  };
+  addCloth(0, 0);
+  addCloth(1, 1);
+  const RayScene rays(scene);
+  for (const float x : {0.25f, 0.75f}) {
+    EXPECT_FLOAT_EQ(rays.transmittance({{x, 0.5f, -0.5f}, {0, 0, 1}, 0, 1}).x, 0.75f) << x;
+    EXPECT_FLOAT_EQ(rays.transmittance({{x, 0.5f, 0.5f}, {0, 0, 1}, 0, 1}).x, x < 0.5f ? 0.75f : 1.0f) << x;
+  }
+}
+
 }  // namespace
 }  // namespace roomlight
