@@ -14,7 +14,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kSpecularPasses = 3;
-constexpr int kBand = 256;  // rows
+constexpr int kBand = 256;  // rows, at least
 constexpr int kFar = 5;  // passes after which a lone bright line leaves copies of itself as far apart as the last pass
                          // looks; short passes after them take these away
 constexpr int kBack = 3;
@@ -147,16 +147,17 @@ class BandFilter {
         steps_(stepsOf(passes)),
         around_(also.left ? (levels_ ? kNoiseReach : 0) : kSpeckReach),
         reach_(reachOf(steps_) + around_ + (levels_ ? poolReachOf(passes) + kCompanyReach : 0)),
-        rows_(w_, std::min(h_, kBand + 2 * reach_), margin()) {}
+        band_(h_ <= kBand + 2 * reach_ ? h_ : kBand),
+        rows_(w_, std::min(h_, band_ + 2 * reach_), margin()) {}
 
   Image run() {
     Image out(w_, h_);
     if (also_.once) also_.once->resize(out.pixels.size());
     if (also_.irradiance) also_.irradiance->resize(out.pixels.size());
     if (also_.left) also_.left->variance.resize(out.pixels.size()), also_.left->luminance.resize(out.pixels.size());
-    for (first_ = 0; first_ < h_; first_ += kBand) {
-      begin_ = std::max(0, first_ - reach_), end_ = std::min(h_, first_ + kBand + reach_),
-      last_ = std::min(h_, first_ + kBand);
+    for (first_ = 0; first_ < h_; first_ += band_) {
+      begin_ = std::max(0, first_ - reach_), end_ = std::min(h_, first_ + band_ + reach_),
+      last_ = std::min(h_, first_ + band_);
       rows_.useRows(end_ - begin_);
       packBand();
       pass_ = {};
@@ -311,6 +312,7 @@ class BandFilter {
   const std::vector<int> steps_;
   const int around_;  // rows that a pixel is judged by, after all passes
   const int reach_;
+  const int band_;  // rows: all, where a band and those beside it are as many
   FilterRows rows_;
   int cleared_ = 0;  // rows whose margins are; passes leave them so
   int begin_ = 0, end_ = 0, first_ = 0, last_ = 0;  // rows in memory, and those of the band among them

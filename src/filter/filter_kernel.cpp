@@ -428,7 +428,7 @@ FilterRows::FilterRows(int w, int h, int margin)
       height_(h),
       margin_(margin),
       pitch_(w + 2 * ptrdiff_t{margin} + kMostLanes),
-      floats_(new float[static_cast<size_t>(pitch_) * kCount * static_cast<size_t>(h)]),
+      floats_(largeFloats(static_cast<size_t>(pitch_) * kCount * static_cast<size_t>(h))),
       begin_(floats_.get() + margin) {}
 
 void FilterRows::clearMargins(int y) {

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+
+#include "base/platform/large_memory.h"
 
 namespace roomlight {
 
@@ -45,7 +46,7 @@ class FilterRows {
  private:
   int width_, height_;
   ptrdiff_t margin_, pitch_;
-  std::unique_ptr<float[]> floats_;
+  LargeFloats floats_;
   float* begin_;
 };
 
