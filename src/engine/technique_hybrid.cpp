@@ -1,7 +1,5 @@
 // Technique `hybrid`: exact rays that read light cached in voxels; left running, it is refined by paths.
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <mutex>
 
 #include "base/image_layers.h"
@@ -20,26 +18,10 @@ namespace {
 constexpr float kCoarser = 1.5f;
 constexpr int kMostForNoise = 256;  // samples, until no pixel has more noise than asked
 constexpr int kMostForError = 256;  // samples, until no more error is left than asked
-constexpr double kPixelsOfCounts = 480 * 270;  // that counts of rays in the settings are meant for, at most
-constexpr int kFewestLater = 4;  // rays of a pixel on an edge, after the first pass
 constexpr int kWorthSurvey = 4;     // samples of a picture that is worth to find out first where its rays arrive
 
-// The filter shares light over a surface, and a surface of a larger picture has more pixels, of which fewer lie on
-// edges: by as many rays a pixel larger pictures have less error than smaller ones. So more of their rays share a
-// shading, and fewer are added after the first pass.
-RayGatherSettings forSize(RayGatherSettings settings, bool samplesAreAsked) {
-  const double times = std::max(1.0, static_cast<double>(settings.width) * settings.height / kPixelsOfCounts);
-  const auto wider = std::bit_floor(static_cast<unsigned>(std::sqrt(times)));
-  settings.laterShare = static_cast<int>(std::min(2u, wider));
-  settings.raysPerShading *= static_cast<int>(std::max(1u, wider / 2));
-  const int later = settings.samples - settings.firstSamples,
-            fewer = std::max(kFewestLater, static_cast<int>(std::lround(later / times)));
-  if (!samplesAreAsked && later > fewer) settings.samples = settings.firstSamples + fewer;
-  return settings;
-}
-
 RayGatherSettings gatherOf(const RenderSettings& settings) {
-  RayGatherSettings out = forSize(stageOf(settings, settings.hybrid), settings.samples > 0);
+  RayGatherSettings out = withCounts(stageOf(settings, settings.hybrid), settings.samples > 0);
   if (settings.noiseLevel > 0) {
     out.tolerance = static_cast<float>(settings.noiseLevel);
     if (settings.samples == 0) out.samples = kMostForNoise;

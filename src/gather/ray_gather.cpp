@@ -1,6 +1,8 @@
 #include "gather/ray_gather.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "gather/hit_survey.h"
 #include "gather/ray_shader.h"
@@ -8,9 +10,23 @@
 namespace roomlight {
 namespace {
 
+constexpr double kPixelsOfCounts = 480 * 270;  // that counts of rays in the settings are meant for, at most
+constexpr int kFewestLater = 4;  // rays of a pixel on an edge, after the first pass
+constexpr unsigned kMostLaterShare = 2;
 constexpr float kCellsAVoxel = 2, kSmallestCellM = 0.02f, kLargestCellM = 0.06f;
 
 }  // namespace
+
+RayGatherSettings withCounts(RayGatherSettings settings, bool samplesAreAsked) {
+  const double times = std::max(1.0, static_cast<double>(settings.width) * settings.height / kPixelsOfCounts);
+  const auto wider = std::bit_floor(static_cast<unsigned>(std::sqrt(times)));
+  settings.laterShare = static_cast<int>(std::min(kMostLaterShare, wider));
+  settings.raysPerShading *= static_cast<int>(std::max(1u, wider / 2));
+  const int later = settings.samples - settings.firstSamples,
+            fewer = std::max(kFewestLater, static_cast<int>(std::lround(later / times)));
+  if (!samplesAreAsked && later > fewer) settings.samples = settings.firstSamples + fewer;
+  return settings;
+}
 
 RayGatherSettings withCells(RayGatherSettings settings, float voxelM) {
   if (settings.hitCellM == 0) settings.hitCellM = std::clamp(voxelM / kCellsAVoxel, kSmallestCellM, kLargestCellM);

@@ -26,6 +26,12 @@ struct RayGatherSettings : PictureSettings {
 class RayShader;
 struct HitSurvey;
 
+// Settings with the counts of rays that suit the size of the picture. The filter shares light over a surface, and a
+// surface of a larger picture has more pixels, of which fewer lie on edges: by as many rays a pixel larger pictures
+// have less error than smaller ones. So more of their rays share a shading and, unless a number is asked for, fewer are
+// added after the first pass.
+RayGatherSettings withCounts(RayGatherSettings settings, bool samplesAreAsked);
+
 // Settings with the size of cells that suits voxels of that edge.
 RayGatherSettings withCells(RayGatherSettings settings, float voxelM);
 
