@@ -22,7 +22,7 @@ constexpr Preset kPresets[] = {
     {"good", "for looking at", [](RenderSettings&) {}},
     {"best", "for keeping: goes on until little error is left",
      [](RenderSettings& s) {
-       s.hybrid.samples = 64, s.hybrid.tolerance /= 3;
+       s.hybrid.samples = 64, s.hybrid.tolerance /= 3, s.hybrid.countsBySize = false;
        s.blendUntilMse = 0.0002;
      }},
 };

@@ -21,7 +21,8 @@ constexpr int kMostForError = 256;  // samples, until no more error is left than
 constexpr int kWorthSurvey = 4;     // samples of a picture that is worth to find out first where its rays arrive
 
 RayGatherSettings gatherOf(const RenderSettings& settings) {
-  RayGatherSettings out = withCounts(stageOf(settings, settings.hybrid), settings.samples > 0);
+  RayGatherSettings out = stageOf(settings, settings.hybrid);
+  if (settings.samples > 0 || settings.noiseLevel > 0) out.countsBySize = false;
   if (settings.noiseLevel > 0) {
     out.tolerance = static_cast<float>(settings.noiseLevel);
     if (settings.samples == 0) out.samples = kMostForNoise;
@@ -71,7 +72,8 @@ class HybridScene final : public VoxelScene<RayShader, RayGatherSettings> {
 
   Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
     if (!shader()) return {};
-    const RayGatherSettings use = asked(gatherSettings(), wish);
+    RayGatherSettings use = asked(gatherSettings(), wish);
+    if (wish.samples > 0) use.countsBySize = false;
     if (!wish.history || use.samples >= kWorthSurvey) {
       const auto prepared = last_.of(
           camera, use.width, use.height, use.samples >= kWorthSurvey, [&]() -> std::shared_ptr<const RayGather> {

@@ -57,7 +57,7 @@ GatheredPicture gatherWithin(double seconds, const TracedScene& scene, const Ray
   const RayGather prepared(scene.rays, scene.lights, shader, camera, gather, progress);
   const double preparing = watch.seconds();
   gather.untilMse = 0, gather.tellsError = false;  // time ends it, and is for the picture
-  RayGatherSettings small = gather;
+  RayGatherSettings small = withCounts(gather);  // as many rays a pixel as the whole would have
   const int divisor = triedPart(gather.width, gather.height);
   small.width = (gather.width + divisor - 1) / divisor, small.height = (gather.height + divisor - 1) / divisor;
   small.samples = std::min(gather.samples, gather.firstSamples), small.tolerance = 0;

@@ -11,20 +11,24 @@ namespace roomlight {
 namespace {
 
 constexpr double kPixelsOfCounts = 480 * 270;  // that counts of rays in the settings are meant for, at most
-constexpr int kFewestLater = 4;  // rays of a pixel on an edge, after the first pass
+constexpr int kLaterPass = 4;  // rays of a pixel in a pass after the first; half as many make sequences uneven
 constexpr unsigned kMostLaterShare = 2;
 constexpr float kCellsAVoxel = 2, kSmallestCellM = 0.02f, kLargestCellM = 0.06f;
 
 }  // namespace
 
-RayGatherSettings withCounts(RayGatherSettings settings, bool samplesAreAsked) {
+RayGatherSettings withCounts(RayGatherSettings settings) {
+  if (!settings.countsBySize) return settings;
+  settings.countsBySize = false;
   const double times = std::max(1.0, static_cast<double>(settings.width) * settings.height / kPixelsOfCounts);
   const auto wider = std::bit_floor(static_cast<unsigned>(std::sqrt(times)));
-  settings.laterShare = static_cast<int>(std::min(kMostLaterShare, wider));
-  settings.raysPerShading *= static_cast<int>(std::max(1u, wider / 2));
+  if (settings.estimates > 1) {  // of a single estimate in a single shading no noise is known
+    settings.laterShare = static_cast<int>(std::min(kMostLaterShare, wider));
+    settings.raysPerShading *= static_cast<int>(std::max(1u, wider / 2));
+  }
   const int later = settings.samples - settings.firstSamples,
-            fewer = std::max(kFewestLater, static_cast<int>(std::lround(later / times)));
-  if (!samplesAreAsked && later > fewer) settings.samples = settings.firstSamples + fewer;
+            passes = std::max(1, static_cast<int>(std::lround(later / (times * kLaterPass))));
+  if (later > kLaterPass) settings.samples = settings.firstSamples + std::min(later, kLaterPass * passes);
   return settings;
 }
 
@@ -55,6 +59,7 @@ RayGather::RayGather(const RayScene& rays, const Lights& lights, const RayShader
 RayGather::~RayGather() = default;
 
 GatheredPicture RayGather::picture(RayGatherSettings settings, const Progress& progress) const {
+  settings = withCounts(settings);
   settings.rareApart = survey_ && settings.filterPasses > 0;
   if (!survey_) return gatherPicture(rays_, lights_, shader_, camera_, settings, progress);
   GatheredPicture picture =

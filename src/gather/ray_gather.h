@@ -21,16 +21,17 @@ struct RayGatherSettings : PictureSettings {
       0;  // edge of the smallest cells of the cache of hits; 0: chosen by the voxels; below 0: no such cache
   int causticPhotons = 1 << 17;  // of what polished surfaces throw on others; 0: rays are left to find it
   int hitSamples = 6;  // of the light on each cell, at most
+  bool countsBySize = true;  // samples and raysPerShading are meant for small pictures: see withCounts()
 };
 
 class RayShader;
 struct HitSurvey;
 
-// Settings with the counts of rays that suit the size of the picture. The filter shares light over a surface, and a
-// surface of a larger picture has more pixels, of which fewer lie on edges: by as many rays a pixel larger pictures
-// have less error than smaller ones. So more of their rays share a shading and, unless a number is asked for, fewer are
-// added after the first pass.
-RayGatherSettings withCounts(RayGatherSettings settings, bool samplesAreAsked);
+// Settings with the counts of rays that suit the size of the picture, where they go by that. The filter shares light
+// over a surface, and a surface of a larger picture has more pixels, of which fewer lie on edges: by as many rays a
+// pixel larger pictures have less error than smaller ones. So more of their rays share a shading, and fewer are added
+// after the first pass. RayGather::picture() does so by itself.
+RayGatherSettings withCounts(RayGatherSettings settings);
 
 // Settings with the size of cells that suits voxels of that edge.
 RayGatherSettings withCells(RayGatherSettings settings, float voxelM);

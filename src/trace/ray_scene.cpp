@@ -56,6 +56,10 @@ void filterIntersect(const RTCFilterFunctionNArguments* args) {
   const auto* tag = static_cast<const GeometryTag*>(args->geometryUserPtr);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
+    if (tag->through >= 0) {
+      if (tag->through == 1) args->valid[i] = 0;
+      continue;
+    }
     const TrianglePoint p{RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
                           RTCHitN_v(args->hit, args->N, i)};
     if (alphaAt(*tag->scene, *tag->mesh, p) == 0) args->valid[i] = 0;
