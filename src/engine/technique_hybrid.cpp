@@ -96,7 +96,7 @@ class HybridScene final : public VoxelScene<RayShader, RayGatherSettings> {
     RayGatherSettings out = gatherSettings();
     out.tellsError = true, out.untilMse = settings_.blendUntilMse;
     if (settings_.blendUntilMse > 0 && out.tolerance > 0 && settings_.samples == 0)
-      out.samples = std::max(out.samples, kMostForError);
+      out.samples = std::max(out.samples, kMostForError), out.countsBySize = false;
     return out;
   }
 

@@ -11,7 +11,8 @@ namespace roomlight {
 namespace {
 
 constexpr double kPixelsOfCounts = 480 * 270;  // that counts of rays in the settings are meant for, at most
-constexpr int kLaterPass = 4;  // rays of a pixel in a pass after the first; half as many make sequences uneven
+constexpr int kLaterPass =
+    4;  // rays of a pixel; after the first pass, in whole multiples, as sequences are made for powers of two
 constexpr unsigned kMostLaterShare = 2;
 constexpr float kCellsAVoxel = 2, kSmallestCellM = 0.02f, kLargestCellM = 0.06f;
 
